@@ -26,8 +26,8 @@ struct result_cache {
   uint8_t *sizes;
   sbf_vec3 *read; /* (points of the largest body) */
   double *first, *points;
-  float *cells[CELL_ARRAYS], *nodes[POINT_ARRAYS],
-      *fractions; /* fractions: of the volume around each point */
+  /* fractions: of the volume around each point */
+  float *cells[CELL_ARRAYS], *nodes[POINT_ARRAYS], *fractions;
   sbr_tetrahedron_state *tetrahedra;
   sbr_spring_state *springs;
   bool begun;

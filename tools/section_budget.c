@@ -16,8 +16,8 @@ enum { SIZE_COUNT = sizeof sizes / sizeof *sizes, FINEST = 640 };
 static const double NEAR_FRACTION = 0.01, MIN_VOLUME = 0.9, MAX_STRAIN = 0.5;
 static const double ALIKE = 1.15;    /* maximum ratio of volumes of left and right */
 static const double SKIN_VISITS = 2; /* element visits per skin vertex with its normal: 8 to 14 ns */
-static const double SOFT_FRACTION =
-    0.25; /* minimum fraction of the budget for soft parts, whatever the skin costs */
+/* minimum fraction of the budget for soft parts, whatever the skin costs */
+static const double SOFT_FRACTION = 0.25;
 
 typedef struct candidate {
   uint32_t elements;

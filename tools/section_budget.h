@@ -9,8 +9,8 @@
 #define SECTION_BUDGET_NS_PER_VISIT 6.0
 
 typedef struct section_budget {
-  uint32_t
-      elements; /* tetrahedra of the lattice whose edges are the springs of a section; 0: nothing to choose */
+  /* tetrahedra of the lattice whose edges are the springs of a section; 0: nothing to choose */
+  uint32_t elements;
   double visits;       /* per tick, of the whole character with skin */
   double skin_visits;  /* of the skin only */
   double max_visits;   /* the budget, or the skin plus a quarter of the budget if that is more */

@@ -9,8 +9,8 @@ typedef struct patch {
   uint32_t *polygons;                   /* (triangle_count) polygon of each */
   sbf_vec2 *uvs, *whole_uvs;            /* (3 triangle_count) the same for texture coordinates; NULL: none */
   draw_colour *colours, *whole_colours; /* (3 triangle_count) the same for colours; NULL: the material's */
-  uint32_t *corners,
-      *whole_corners; /* (3 triangle_count) the same for corners of the polygons; NULL: no hard edges */
+  /* (3 triangle_count) the same for corners of the polygons; NULL: no hard edges */
+  uint32_t *corners, *whole_corners;
   uint32_t triangle_count;
   skin_material style;
 } patch;
@@ -35,8 +35,8 @@ struct shown_skin {
 typedef struct shown_polygons {
   sbf_u32_list sizes, points, materials;
   uint32_t *position_of; /* (vertices of the mesh); NULL: all are written */
-  uint32_t
-      *corner_of; /* (displayed corners) corner of the full mesh with the same attributes; NULL: the same */
+  /* (displayed corners) corner of the full mesh with the same attributes; NULL: the same */
+  uint32_t *corner_of;
 } shown_polygons;
 
 /* A level may have no map of its corners to the full mesh: then uses the first corner at each point. */

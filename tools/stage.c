@@ -15,8 +15,8 @@ typedef struct body_style {
 } body_style;
 
 enum { MAX_LEGS = 16, PRINTS = 64 };
-static const float AROUND =
-    1.3f; /* radius of a drawn footprint relative to the sole, so that it is visible around it */
+/* radius of a drawn footprint relative to the sole, so that it is visible around it */
+static const float AROUND = 1.3f;
 
 /* Position where a foot touched down. */
 typedef struct footprint {

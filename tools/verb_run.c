@@ -191,8 +191,8 @@ static json_t *report(const run_state *r) {
   add_distance(r, o);
   add_steps(r, o);
   profile_report_add(&r->profile, &r->s, o);
-  rigid_report_add(
-      &r->rigid, &r->s, o); /* for simulated bodies the limits of their joints, not of the pose */
+  /* for simulated bodies the limits of their joints, not of the pose */
+  rigid_report_add(&r->rigid, &r->s, o);
   return o;
 }
 

@@ -7,8 +7,8 @@
 #include "mechanics/vector.h"
 
 static const double TICK = 1.0 / 60;
-static const double MAX =
-    0.999; /* maximum fraction of an error that a tick removes: a slider at 1 would be rigid */
+/* maximum fraction of an error that a tick removes: a slider at 1 would be rigid */
+static const double MAX = 0.999;
 
 static int compare_edges(const void *a, const void *b) {
   uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;

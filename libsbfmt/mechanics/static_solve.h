@@ -25,8 +25,8 @@ typedef struct sbfi_static_problem {
   double tolerance;          /* residual as a fraction of the load; 0: 1e-8 */
   uint32_t max_steps;        /* of Newton's method; 0: 100 */
   uint32_t max_products;     /* total matrix-vector products; 0: unlimited */
-  sbfi_progress
-      progress; /* receives the fraction of the steps; if it cancels, the result has not converged */
+  /* receives the fraction of the steps; if it cancels, the result has not converged */
+  sbfi_progress progress;
 } sbfi_static_problem;
 
 typedef struct sbfi_static_outcome {

@@ -10,8 +10,8 @@
 
 typedef struct sbfi_asset_box {
   sbfi_arena arena;
-  void (*release)(
-      void *released); /* called when the asset is freed, for example to unmap a file; may be NULL */
+  /* called when the asset is freed, for example to unmap a file; may be NULL */
+  void (*release)(void *released);
   void *released;
   sbf_asset asset;
 } sbfi_asset_box;

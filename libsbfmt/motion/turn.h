@@ -2,8 +2,8 @@
 #ifndef SBFI_TURN_H
 #define SBFI_TURN_H
 
-void sbfi_turn_product(
-    const double a[4], const double b[4], double to[4]); /* b first; `to` may alias either */
+/* b first; `to` may alias either */
+void sbfi_turn_product(const double a[4], const double b[4], double to[4]);
 void sbfi_turn_undo(const double a[4], double to[4]);
 void sbfi_turn_vector(const double a[4], const double v[3], double to[3]);
 /* Shortest rotation from one unit vector to another. */

@@ -21,8 +21,8 @@ typedef struct planner {
   uint32_t part_count;
   size_t outline_begin;
   bool outline; /* writes counts instead of lists, and parts inline */
-  sbfi_packed_chunk
-      address; /* of the current part; field: the part's field that contains the current object */
+  /* of the current part; field: the part's field that contains the current object */
+  sbfi_packed_chunk address;
   sbfi_planned result;
 } planner;
 

@@ -14,8 +14,8 @@ typedef struct span {
 
 /* The part whose record is being read. */
 typedef struct part_context {
-  sbfi_packed_chunk
-      address;        /* kind, owner, level; field: the part's field that contains the current object */
+  /* kind, owner, level; field: the part's field that contains the current object */
+  sbfi_packed_chunk address;
   uint32_t depth;     /* current nesting depth of elements */
   bool without_lists; /* lists of the part stay empty */
 } part_context;

@@ -331,8 +331,8 @@ static bool check_attributes(reader *r) {
   for (uint32_t i = 0; i < self->element->field_count; i++) {
     const sbfi_field *field = &self->element->fields[i];
     if (!field->required || self->seen >> i & 1) continue;
-    if (!sbfi_xml_find_attribute(self->element, self->field, field->name))
-      continue; /* the element's name defines it */
+    /* the element's name defines it */
+    if (!sbfi_xml_find_attribute(self->element, self->field, field->name)) continue;
     return fail(r, SBF_CODE_REQUIRED_MISSING, field, "<%s> must have the attribute `%s`", self->element->xml,
         field->name);
   }

@@ -24,8 +24,8 @@ typedef struct network {
   bar *bars;
   cell *cells;
   double gravity[3];
-  double *positions, *velocities, *moments, *begin,
-      *sum; /* moments: accelerations; begin and sum: positions and velocities */
+  /* moments: accelerations; begin and sum: positions and velocities */
+  double *positions, *velocities, *moments, *begin, *sum;
 } network;
 
 static void cross(const double a[3], const double b[3], double to[3]) {

@@ -13,8 +13,8 @@ static const char BODY_ADVICE[] = "its matter folds up or its lattice is unsound
 /* Maximum distance of the two tracks of a reference, relative to the displacement, that needs no
  * refinement. */
 static const double CONVERGED = 0.001;
-static const double RICHARDSON =
-    15; /* 2^4 - 1: ratio of errors for half the step of a fourth order method, minus 1 */
+/* 2^4 - 1: ratio of errors for half the step of a fourth order method, minus 1 */
+static const double RICHARDSON = 15;
 
 static sbf_status no_memory(sbf_diagnostic *error) {
   return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");

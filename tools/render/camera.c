@@ -1,8 +1,8 @@
 #include "render/camera.h"
 
 static const float margin = 1.12f; /* margin of the picture around the subject */
-static const float half_height =
-    0.2493280f; /* tangent of 14 degrees: a long lens without perspective distortion */
+/* tangent of 14 degrees: a long lens without perspective distortion */
+static const float half_height = 0.2493280f;
 
 sbf_vec3 draw_camera_back(const draw_camera *camera) {
   float level = cosf(camera->pitch);

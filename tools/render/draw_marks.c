@@ -5,8 +5,8 @@ enum { RING_SEGMENTS = 40 };
 
 static const float full_turn = 6.28318531f;
 static const float rim_width = 2.4f; /* sum of both sides */
-static const float lifted =
-    0.08f; /* fraction of a print's radius, so that the ground does not cut through it */
+/* fraction of a print's radius, so that the ground does not cut through it */
+static const float lifted = 0.08f;
 
 /* Adds a vertex without triangle, which framing includes. */
 static void keep_in_picture(draw_scene *scene, sbf_vec3 position) {

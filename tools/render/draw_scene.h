@@ -31,8 +31,8 @@ typedef struct draw_mesh {
   const sbf_vec3 *positions;  /* (vertex_count) */
   const sbf_vec3 *normals;    /* (vertex_count) unit; NULL: computed, smooth */
   const draw_colour *colours; /* (vertex_count); NULL: `colour` for all */
-  const uint32_t
-      *triangles; /* (3 triangle_count) into positions; triangles with an index out of range are skipped */
+  /* (3 triangle_count) into positions; triangles with an index out of range are skipped */
+  const uint32_t *triangles;
   uint32_t vertex_count, triangle_count;
   draw_colour colour;
   const draw_image *image;    /* multiplied with the colour if opaque; NULL: none. Not copied: must outlive,

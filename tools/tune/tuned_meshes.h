@@ -20,10 +20,10 @@ typedef struct tune_mesh {
 typedef struct tune_grid {
   uint32_t sizes[TUNE_MAX_SIZES]; /* tetrahedra per body */
   uint32_t size_count;            /* 0: a half, an eighth and a 32nd of the reference's, at least 48 */
-  uint32_t
-      reference; /* tetrahedra per body of the reference; 0: 12,000 in total, between 960 and 4000 per body */
-  bool coarse;   /* if `reference` is 0: a quarter of that */
-  bool calibrated_alone;                                           /* skips uncalibrated ones */
+  /* tetrahedra per body of the reference; 0: 12,000 in total, between 960 and 4000 per body */
+  uint32_t reference;
+  bool coarse;           /* if `reference` is 0: a quarter of that */
+  bool calibrated_alone; /* skips uncalibrated ones */
   void (*progress)(void *user, const char *what, double fraction); /* may be NULL */
   void *user;
 } tune_grid;

@@ -6,8 +6,8 @@
 #include "sbrun/rigid.h"
 
 static const float GRAVITY = 9.80665f;
-static const float BALL_FRACTION = 0.07f,
-                   FINGER_FRACTION = 0.04f; /* radii relative to the character's size */
+/* radii relative to the character's size */
+static const float BALL_FRACTION = 0.07f, FINGER_FRACTION = 0.04f;
 static const sbf_quat UNTURNED = {0, 0, 0, 1};
 
 static sbr_double3 to_world(sbf_vec3 v) {

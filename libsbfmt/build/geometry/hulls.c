@@ -177,8 +177,8 @@ bool sbfi_hull_contains(const sbf_polygon_mesh *hull, sbf_vec3 point) {
   for (uint32_t p = 0; p < hull->polygon_sizes.count; corners += hull->polygon_sizes.at[p++]) {
     sbfi_d3 middle = sbfi_polygon_middle(hull->positions.at, corners, hull->polygon_sizes.at[p]);
     sbfi_d3 area = sbfi_polygon_area(hull->positions.at, corners, hull->polygon_sizes.at[p], middle);
-    double size = sqrt(
-        sbfi_d3_length(area)); /* tolerance in proportion to the face, for rounding in single precision */
+    /* tolerance in proportion to the face, for rounding in single precision */
+    double size = sqrt(sbfi_d3_length(area));
     if (sbfi_d3_dot(sbfi_d3_sub(sbfi_d3_of(point), middle), sbfi_d3_normal(area)) > 1e-5 * size) return false;
   }
   return hull->polygon_sizes.count > 0;

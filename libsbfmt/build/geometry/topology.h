@@ -22,8 +22,8 @@ typedef struct sbfi_topology {
 
   uint32_t boundary_edge_count;    /* one traversal */
   uint32_t nonmanifold_edge_count; /* more than two traversals */
-  uint32_t
-      clashing_edge_count; /* two traversals in the same direction: the polygons have opposite orientations */
+  /* two traversals in the same direction: the polygons have opposite orientations */
+  uint32_t clashing_edge_count;
   uint32_t unused_point_count;    /* points without polygons */
   uint32_t degenerate_side_count; /* edges from a point to itself */
 } sbfi_topology;

@@ -80,10 +80,10 @@ typedef struct sbfi_calibration {
   double load_errors[SBFI_MAX_LOADS], twist_errors[SBFI_TWISTS];
   double period_error; /* relative excess of the period under the load with the largest displacement; NAN:
                           unknown */
-  double
-      error; /* m, largest distance of a surface point from its position in the reference under gravity along
-                one of the axes; from small strains, if one of the two did not converge; INFINITY: unknown,
-                because these displace it by more than the body's size, and the level gets no error */
+  /* m, largest distance of a surface point from its position in the reference under gravity along one of the
+   * axes; from small strains, if one of the two did not converge; INFINITY: unknown, because these displace
+   * it by more than the body's size, and the level gets no error */
+  double error;
   bool unsettled; /* it does not converge, because parts rotate about their pins or move much farther than the
                      reference's: it stays unchanged, without a calibration */
 } sbfi_calibration;

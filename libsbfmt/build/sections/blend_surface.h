@@ -35,8 +35,8 @@ typedef struct sbfi_blend_surface {
   uint32_t (*triangles)[3];
   uint32_t *begins, *at_point; /* triangles at each point, from sbfi_blend_surface_index() */
   const uint8_t *soft;         /* (bones) whose region should bend well; NULL: all */
-  const uint8_t
-      *fixed; /* (point_count) points that keep their weights as long as others can change; NULL: none */
+  /* (point_count) points that keep their weights as long as others can change; NULL: none */
+  const uint8_t *fixed;
   uint8_t *changed; /* (point_count) receives 1 for changed weights */
 } sbfi_blend_surface;
 

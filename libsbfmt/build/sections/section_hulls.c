@@ -5,8 +5,8 @@
 #include "build/geometry/hulls.h"
 #include "sbfmt/mechanics.h"
 
-static const double MIN_FILLED =
-    0.05; /* minimum filled fraction of a hull: less is a shell without volume for its mass */
+/* minimum filled fraction of a hull: less is a shell without volume for its mass */
+static const double MIN_FILLED = 0.05;
 
 typedef struct hull_list {
   sbf_rigid_body *at;

@@ -19,8 +19,8 @@ typedef struct sbfi_shell {
  * bounding box's longest side, relative to its lowest corner. */
 typedef struct sbfi_weight_mesh {
   sbf_vec3 *sites; /* (site_count) */
-  uint32_t
-      *site_of_point; /* (point_count) for a point without triangles that of the nearest point with one */
+  /* (point_count) for a point without triangles that of the nearest point with one */
+  uint32_t *site_of_point;
   uint32_t (*triangles)[3]; /* (triangle_count) by shell; closed shells face outwards */
   uint32_t *shell_of_site;  /* (site_count) */
   uint32_t *sites_by_shell; /* (site_count) ascending within a shell */

@@ -37,8 +37,8 @@ typedef struct items {
 typedef struct document {
   items nodes, lists, controllers;
   int open_nodes[DEEPEST], depth;
-  int controller, list,
-      instance; /* currently open; NONE: none. `instance`: the controller that it refers to */
+  /* currently open; NONE: none. `instance`: the controller that it refers to */
+  int controller, list, instance;
   bool out_of_memory;
 } document;
 

@@ -14,8 +14,8 @@ static const double SOLE = 0.03; /* fraction of the skins' size; objects that en
 
 /* Surface with a bone at each point. */
 typedef struct holder {
-  const uint32_t
-      *bones; /* (points) SBFI_NO_INDEX where no bone moves the point; NULL: all points follow `bone` */
+  /* (points) SBFI_NO_INDEX where no bone moves the point; NULL: all points follow `bone` */
+  const uint32_t *bones;
   int32_t bone;
   sbfi_triangle_tree tree;
 } holder;

@@ -423,8 +423,8 @@ static double area_of_objects(const work *w) {
  * says that it is a machine. Otherwise objects on bones of a skinned character are props: they are drawn
  * but not simulated. */
 static bool make_props_rigid(const work *w) {
-  sbf_soft_body *bodies =
-      (sbf_soft_body *)(uintptr_t)w->asset->soft_bodies.at; /* the conversion owns the asset */
+  /* the conversion owns the asset */
+  sbf_soft_body *bodies = (sbf_soft_body *)(uintptr_t)w->asset->soft_bodies.at;
   uint32_t kept = 0, count = w->asset->soft_bodies.count;
   if (!is_called_machine(w) && area_of_objects(w) > PROP_AREA * w->area) return true;
   for (uint32_t i = 0; i < count; i++) {

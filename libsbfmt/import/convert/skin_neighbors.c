@@ -4,11 +4,11 @@
 
 #include "import/convert/skeleton_draft.h"
 
-static const double MAX_BORDER =
-    0.5; /* maximum fraction of its border that a detached bone shares with its limb */
-static const double NEAR_LIMB =
-    0.04;                            /* fraction of the size; from its skin to that of its limb's last bone */
-static const double NEAR_ANY = 0.02; /* the same for bones other than the last of a limb */
+/* maximum fraction of its border that a detached bone shares with its limb */
+static const double MAX_BORDER = 0.5;
+/* fraction of the size; from its skin to that of its limb's last bone */
+static const double NEAR_LIMB = 0.04;
+static const double NEAR_ANY = 0.02;    /* the same for bones other than the last of a limb */
 static const double NEAR_TARGET = 0.04; /* fraction of the size; from a target to the skin that it moves */
 static const double FAR_END = 0.5;      /* fraction of the last bone's length; targets are beyond */
 enum { MAX_PINNED = 2, STEPS = 1500 };  /* bones with skin below a detached bone; points compared per bone */

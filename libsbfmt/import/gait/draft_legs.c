@@ -9,13 +9,13 @@
 
 #include "import/gait/gait_draft.h"
 
-static const double GROUND_FRACTION =
-    0.05; /* fraction of the height; maximum height of a leg's end above the ground */
+/* fraction of the height; maximum height of a leg's end above the ground */
+static const double GROUND_FRACTION = 0.05;
 static const double LIFTED_FRACTION = 0.2; /* the same for the twin of a leg, in a rig bound in mid stride */
-static const double FOOT_FRACTION =
-    0.02; /* fraction of the height; parts this close to the leg's lowest point are on the ground */
-static const double HIP_FRACTION =
-    0.05; /* fraction of the height; minimum height of a leg's root above its sole */
+/* fraction of the height; parts this close to the leg's lowest point are on the ground */
+static const double FOOT_FRACTION = 0.02;
+/* fraction of the height; minimum height of a leg's root above its sole */
+static const double HIP_FRACTION = 0.05;
 static const double MIN_SEGMENT = 0.05; /* minimum fraction of the reach for thigh and shin */
 static const double LONG_FOOT = 0.25;   /* fraction of the reach; a foot this long leans over its toe */
 static const double HIGH_ANKLE = 0.7;   /* if its ankle is this high, as a fraction of the hip's height */

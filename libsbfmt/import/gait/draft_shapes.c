@@ -5,8 +5,8 @@
 #include "import/gait/gait_draft.h"
 #include "model/bone_ends.h"
 
-static const double SIDE_FRACTION =
-    0.02; /* fraction of the height; points this close to x = 0 are in the middle */
+/* fraction of the height; points this close to x = 0 are in the middle */
+static const double SIDE_FRACTION = 0.02;
 static const double FLAT_FRACTION = 0.006; /* fraction of the greatest extent, used for flat characters */
 
 double sbfi_draft_distance(const sbfi_gait_draft *d, int32_t a, int32_t b) {

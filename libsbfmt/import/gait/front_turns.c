@@ -6,8 +6,8 @@
 
 enum { MIN_CHAIN = 4 }; /* bones */
 
-static const double TAIL_END = 0.25,
-                    NARROW = 0.7; /* fraction of the length at an end; ratio of the widths of both ends */
+/* fraction of the length at an end; ratio of the widths of both ends */
+static const double TAIL_END = 0.25, NARROW = 0.7;
 
 /* Above 0 if bones named left are on the left and heads in front of tails, seen after `turns` quarter
  * turns. */

@@ -5,10 +5,9 @@
 #include "motion/turn.h"
 
 static const double DEGREE = 0.017453292519943295;
-static const double
-    ENOUGH = 30,
-    DOWN = 70, AHEAD = 5,
-    ELBOW = 20; /* degrees; ENOUGH: angle below level in the bind pose from which arms stay as they are */
+static const double ENOUGH = 30,
+                    /* degrees; ENOUGH: angle below level in the bind pose from which arms stay as they are */
+    DOWN = 70, AHEAD = 5, ELBOW = 20;
 static const double FINGER[3] = {15, 25, 15}; /* degrees, by joint */
 static const double STRAIGHT = 0.94;          /* minimum cosine between the bones of straight fingers */
 

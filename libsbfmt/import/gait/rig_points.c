@@ -6,8 +6,8 @@
 
 enum { ASKED = 400, COMPARED = 6000 }; /* points that are mirrored, and points that they are compared with */
 enum { MIN_NAMED = 2 };                /* minimum number of bones that name a side */
-static const double CLEAR_VOTES =
-    0.3;                            /* minimum difference between the scores of names along x and along z */
+/* minimum difference between the scores of names along x and along z */
+static const double CLEAR_VOTES = 0.3;
 static const double CLEARLY = 0.85; /* maximum ratio of errors for facing along X to be the better guess */
 
 static void add_point(sbfi_rig_points *points, const sbfi_gait_draft *seen, sbf_vec3 at, int32_t bone) {

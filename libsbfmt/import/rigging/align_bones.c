@@ -24,8 +24,8 @@ enum {
   MAX_CANDIDATES = 1 + ROTATIONS * (SBFI_USUAL_UNITS + 3)
 };
 
-static const double CERTAIN =
-    0.85;                        /* fraction inside; below it the input may be in another pose than the rig */
+/* fraction inside; below it the input may be in another pose than the rig */
+static const double CERTAIN = 0.85;
 static const double GOOD = 0.95; /* fraction of the length inside that needs no further search */
 
 /* For rotated limbs: minimum fraction of the bones inside, maximum fraction of the input without bones,
@@ -34,8 +34,8 @@ static const double GOOD = 0.95; /* fraction of the length inside that needs no 
 static const double MIN_TURNED = 0.85, MAX_UNCOVERED = 0.35, BETTER_TURNED = 0.85, THICK = 0.15;
 static const double BETTER = 0.02; /* minimum improvement by a later candidate */
 static const double NEARNESS = 2;  /* weight of a mean distance against the fraction inside */
-static const double MIN_LONG =
-    0.6; /* minimum extent of the bones as a fraction of the body's longest side, for the stated transform */
+/* minimum extent of the bones as a fraction of the body's longest side, for the stated transform */
+static const double MIN_LONG = 0.6;
 static const double KEPT = 0.85; /* fraction inside from which the stated transform is not a coincidence */
 static const double ODD = 0.15;  /* minimum improvement by an unusual scale or offset with the same axes */
 static const double POSED = 0.1; /* minimum improvement by a rarer rotation if limbs are posed differently */

@@ -13,9 +13,9 @@ typedef struct sbfi_limb_alignment {
   sbfi_matrix to_asset;  /* from the input's own space */
   sbfi_matrix *motions;  /* (bones) from rest, asset space; rotations and offsets */
   sbfi_bone_line *lines; /* the given lines in the new pose */
-  double cost,
-      unposed_cost; /* see limb_fit.h; unposed_cost is that of the best usual alignment without rotations */
-  char names[300];  /* names of the rotated bones, "" if none */
+  /* see limb_fit.h; unposed_cost is that of the best usual alignment without rotations */
+  double cost, unposed_cost;
+  char names[300]; /* names of the rotated bones, "" if none */
 } sbfi_limb_alignment;
 
 /* Selects the best of several candidate alignments, with rotated limbs. `unposed` is the usual alignment

@@ -304,8 +304,8 @@ static bool refine(search *s, sbfi_arena *arena, double *fraction) {
       sbfi_arena_allocate(arena, count, sizeof *p.to), 0, 0};
   if (!p.from || !p.to) return false;
   try_mirrors(s, &p);
-  bool is_stated =
-      memcmp(&s->best, &s->r->c->to_asset, sizeof s->best) == 0; /* the stated transform is right and stays */
+  /* the stated transform is right and stays */
+  bool is_stated = memcmp(&s->best, &s->r->c->to_asset, sizeof s->best) == 0;
   if (!is_stated) fit(s, &p);
   uint32_t samples = count < MATCH_SAMPLES ? count : MATCH_SAMPLES;
   find_pairs(s, &s->best, samples, &p);

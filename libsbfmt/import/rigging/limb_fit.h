@@ -16,9 +16,9 @@ typedef struct sbfi_limb_fit {
   double size;            /* of the input, its longest side */
   sbfi_d3 offset;         /* offset of the whole rig */
   bool is_fixed;          /* keeps the offset */
-  const bool
-      *is_middle; /* (bones) bones that rotate about x alone while the rig moves in that plane; or NULL */
-  double cost;    /* of the current pose; 0: all bones are in the middle of all parts */
+  /* (bones) bones that rotate about x alone while the rig moves in that plane; or NULL */
+  const bool *is_middle;
+  double cost; /* of the current pose; 0: all bones are in the middle of all parts */
   /* State of the current limb. */
   bool *below;                        /* (bones) its first bone and descendants */
   uint32_t *line_indices, line_count; /* of its lines */

@@ -40,8 +40,8 @@ static void weigh_candidate(void *user, uint32_t candidate) {
   if (m->best == candidate) return;
   if (m->best_score < 0) m->best_score = score(m, m->best);
   double here = score(m, candidate);
-  bool even =
-      fabs(here - m->best_score) < 1e-6; /* double surfaces: each of the input's points gets its own */
+  /* double surfaces: each of the input's points gets its own */
+  bool even = fabs(here - m->best_score) < 1e-6;
   bool less_used = m->used[candidate] < m->used[m->best];
   bool before = m->used[candidate] == m->used[m->best] && candidate < m->best;
   if (even ? !less_used && !before : here < m->best_score) return;

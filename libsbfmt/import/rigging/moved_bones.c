@@ -75,8 +75,8 @@ bool sbfi_rig_move_bones(sbfi_rigging *r, const sbfi_matrix *motions) {
   if (!scene) return false;
   sbfi_scene_node *nodes = sbfi_arena_copy(arena, scene->nodes, scene->node_count, sizeof *nodes);
   if (!nodes) return false;
-  if (!move_nodes(r->c, motions, nodes, scene->node_count))
-    return true; /* a rig with a singular transform has no poses */
+  /* a rig with a singular transform has no poses */
+  if (!move_nodes(r->c, motions, nodes, scene->node_count)) return true;
   scene->nodes = nodes;
   r->c->rig = r->rig.scene = scene;
   move_bones(motions, (sbf_bone *)(uintptr_t)bones.at, bones.count); /* the conversion owns the asset */

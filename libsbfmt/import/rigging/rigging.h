@@ -76,9 +76,9 @@ typedef struct sbfi_rigging {
   double unlike;
   sbfi_influences *weights; /* (input points) */
   uint8_t *sources;         /* (input points) sbfi_weight_source */
-  int32_t
-      *carriers;    /* (input meshes) node of the rig that moves the whole mesh without a skin, or SBF_NONE */
-  int32_t *lies_on; /* (input meshes) node of the rig's unskinned mesh that contains all its points */
+  /* (input meshes) node of the rig that moves the whole mesh without a skin, or SBF_NONE */
+  int32_t *carriers;
+  int32_t *lies_on;   /* (input meshes) node of the rig's unskinned mesh that contains all its points */
   const char **names; /* (input meshes) */
   bool *separated;    /* (input meshes) whether it was reported as separated from the rig */
   bool *turned;       /* (input meshes) its polygons face away from those of the rig */

@@ -48,8 +48,8 @@ static bool fold(sbfi_assembly *a) {
   sbfi_matrix *above =
       sbfi_arena_allocate(&a->scratch, raw->node_count, sizeof *above); /* product of the helpers */
   int32_t *kept_parent = sbfi_arena_allocate(&a->scratch, raw->node_count, sizeof *kept_parent);
-  uint8_t *chain = sbfi_arena_allocate(
-      &a->scratch, raw->node_count, 1); /* number of consecutive helpers up to this node */
+  /* number of consecutive helpers up to this node */
+  uint8_t *chain = sbfi_arena_allocate(&a->scratch, raw->node_count, 1);
   if (!above || !kept_parent || !chain) return false;
   uint32_t count = 0;
   for (uint32_t i = 0; i < raw->node_count; i++) {

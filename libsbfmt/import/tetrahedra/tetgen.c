@@ -49,8 +49,8 @@ bool sbfi_read_tetgen_elements(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_
     if (!sbfi_word_u32(r, &number, "a tetrahedron's number")) return false;
     for (int k = 0; k < 4; k++) {
       if (!sbfi_word_u32(r, &number, "a tetrahedron's node")) return false;
-      tetrahedra[i].at[k] =
-          number - first_number; /* numbers that are too small wrap around and fail the range check */
+      /* numbers that are too small wrap around and fail the range check */
+      tetrahedra[i].at[k] = number - first_number;
     }
     if (!skip_words(r, nodes - 4 + attributes)) return false;
   }

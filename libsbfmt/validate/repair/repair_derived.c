@@ -26,8 +26,8 @@ sbf_status sbfi_repair_derived(sbfi_repair *m, sbf_diagnostic *error) {
   if (!stale || !sbfi_build_settings_read(stale->settings, &options)) return status;
   status = sbf_build(m->asset, &options, &built, NULL, &refused);
   if (status == SBF_FAILED && error) *error = refused;
-  if (status != SBF_OK)
-    return status == SBF_FAILED ? status : SBF_OK; /* parts that cannot be built stay stale */
+  /* parts that cannot be built stay stale */
+  if (status != SBF_OK) return status == SBF_FAILED ? status : SBF_OK;
   if (strcmp(built->derivations.at[0].settings, stale->settings) != 0) {
     sbf_asset_free(built);
     return SBF_OK;

@@ -61,8 +61,8 @@ static void repair_normals(sbfi_repair *m, const sbf_render_mesh *mesh, uint32_t
   for (uint32_t i = 0; i < mesh->normals.count; i++) {
     sbf_vec3 *normal = (sbf_vec3 *)sbfi_writable(mesh->normals.at) + i;
     double length = sbfi_d3_length(sbfi_d3_of(*normal));
-    if (fabs(length * length - 1) <= 0.02 || !(length > 0))
-      continue; /* zero length: the direction is unknown */
+    /* zero length: the direction is unknown */
+    if (fabs(length * length - 1) <= 0.02 || !(length > 0)) continue;
     *normal = sbfi_d3_rounded(sbfi_d3_scale(sbfi_d3_of(*normal), 1 / length));
     if (count++ == 0) first = i;
   }

@@ -77,8 +77,8 @@ static bool is_same_channel(sbf_follower_channel a, sbf_follower_channel b) {
 
 static void check_followers(sbfi_validation *v) {
   const sbf_follower_list all = v->asset->followers;
-  uint32_t *first =
-      sbfi_scratch(v, 2 * (size_t)v->asset->bones.count, sizeof *first); /* follower number from 1 */
+  /* follower number from 1 */
+  uint32_t *first = sbfi_scratch(v, 2 * (size_t)v->asset->bones.count, sizeof *first);
   for (uint32_t i = 0; first && i < all.count; i++) {
     const sbf_follower *follower = &all.at[i];
     sbfi_path path = sbfi_path_of("/sbf/followers/follower[%u]", i + 1);

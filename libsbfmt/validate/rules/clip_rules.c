@@ -57,8 +57,8 @@ static void check_track(const played *p, const sbf_track *track, const char *pat
 
 static void check_clips(sbfi_validation *v) {
   const size_t keyed_count = (size_t)v->asset->bones.count * SBF_TRACK_PROPERTY_COUNT;
-  uint32_t *keyed =
-      sbfi_scratch(v, keyed_count, sizeof *keyed); /* number from 1 of the clip that keyed it last */
+  /* number from 1 of the clip that keyed it last */
+  uint32_t *keyed = sbfi_scratch(v, keyed_count, sizeof *keyed);
   for (uint32_t c = 0; keyed && c < v->asset->clips.count; c++) {
     const sbf_clip *clip = &v->asset->clips.at[c];
     played p = {v, clip, sbfi_label(clip->name, clip->id)};

@@ -19,8 +19,8 @@ static void check(
         (unsigned long long)sum, c->count);
     return;
   }
-  uint32_t *last =
-      sbfi_scratch(v, point_count, sizeof *last); /* number from 1 of the last element with the point */
+  /* number from 1 of the last element with the point */
+  uint32_t *last = sbfi_scratch(v, point_count, sizeof *last);
   if (!last) return;
   for (uint32_t color = 0, begin = 0; color < c->counts.count; begin += c->counts.at[color++])
     for (uint32_t i = begin; i < begin + c->counts.at[color]; i++)

@@ -79,8 +79,8 @@ static void check_points(const seen *s) {
 }
 
 static void check_shape_keys(const seen *s) {
-  uint32_t *last =
-      sbfi_scratch(s->v, s->mesh->mesh.positions.count, sizeof *last); /* number from 1 of the key */
+  /* number from 1 of the key */
+  uint32_t *last = sbfi_scratch(s->v, s->mesh->mesh.positions.count, sizeof *last);
   for (uint32_t k = 0; last && k < s->mesh->shape_keys.count; k++) {
     const sbf_shape_key *key = &s->mesh->shape_keys.at[k];
     for (uint32_t i = 0; i < key->points.count; i++) {

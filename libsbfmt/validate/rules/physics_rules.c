@@ -48,8 +48,8 @@ static void check_substeps(
       .ends = ends,
       .stiffness = stiffness};
   double bound = sbf_network_highest_bound(&network, sums);
-  double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick -
-                       1e-3); /* half a tick times the angular frequency */
+  /* half a tick times the angular frequency */
+  double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick - 1e-3);
   if ((double)level->simulation.substeps < needed)
     sbfi_found(v, SBF_CODE_SUBSTEPS_TOO_FEW, path, -1,
         "%u substep%s asked for and the stiffness of '%s' needs %.0f", level->simulation.substeps,

@@ -31,8 +31,8 @@ static void frame_of(const sbf_asset *asset, const sbf_pin_set *set, sbfi_d3 *or
     *origin = sbfi_d3_of(asset->bones.at[set->bone].head);
     *turn = sbfi_rotation_of(asset->bones.at[set->bone].rotation);
   } else if (set->rigid_body >= 0) {
-    *origin =
-        sbfi_d3_of(asset->rigid_bodies.at[set->rigid_body].center); /* its axes are those of asset space */
+    /* its axes are those of asset space */
+    *origin = sbfi_d3_of(asset->rigid_bodies.at[set->rigid_body].center);
   }
 }
 
