@@ -10,7 +10,7 @@ from bundle_file import Bundle
 from bvh_file import write_bvh
 from posed_inputs import write_bones
 from rigged_weights import Original, weights_by_vertex
-from sbfmt_program import SOURCE_PARTS, ProgramTest, main, shared
+from sbfmt_program import SOURCE_PARTS, ProgramTest, call, main, shared, write_bytes
 
 
 def mirrored(joints):
@@ -91,6 +91,50 @@ class Cow(ProgramTest):
         """All bones of a long cow lie in the fat one, but not in its head and legs."""
         said = self.fails(1, "convert", shared("spot", "spot.obj"), "--rig", LONG_COW, "-o", self.path("no.sbf"))
         self.assertRegex(said, r"outside lie no bones, but (3[5-9]|[4-9]\d) % of the mesh has none near; .*IMPORT_RIG_OUTSIDE")
+
+
+class Ball(ProgramTest):
+    """A ball with 32 limbs from its middle to its surface, and short ones that end deep inside."""
+
+    def convert(self, deep):
+        angles = [(math.pi * i / 5, math.pi * j / 4) for i in range(1, 5) for j in range(8)]
+        joints = [("Root", None, (0, 0, 0))]
+        for k, (a, b) in enumerate(angles):
+            joints += chain(f"Limb{k}", (math.sin(a) * math.cos(b), math.sin(a) * math.sin(b), math.cos(a)), (0.6, 0.9))
+        for k in range(deep):
+            joints += chain(f"Deep{k}", (math.cos(2.4 * k), math.sin(2.4 * k), math.cos(1.7 * k)), (0.1, 0.16, 0.22))
+        write_bvh(self.path("star.bvh"), joints)
+        write_bytes(self.path("ball.obj"), ball(24).encode())
+        return call("convert", self.path("ball.obj"), "--rig", self.path("star.bvh"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+
+    def test_bones_deep_inside_that_hold_no_skin_do_not_count(self):
+        self.assertEqual(self.convert(0).status, 0)
+        result = self.convert(60)
+        self.assertEqual(result.status, 1)
+        self.assertRegex(result.err, r"2\d % lie deep inside, where other bones are nearer to all of it: 'Deep\d+.*IMPORT_RIG_OUTSIDE")
+
+
+def chain(name, direction, distances):
+    """Joints of a limb from the root, at these distances; the last is its end."""
+    names = [*(f"{name}_{i}" for i in range(len(distances) - 1)), f"{name}_{len(distances) - 2}_end"]
+    return [(own, above, tuple(d * x for x in direction)) for own, above, d in zip(names, ["Root", *names], distances)]
+
+
+def ball(rings):
+    """An OBJ of a ball of radius 1."""
+    around, lines = 2 * rings, []
+    for i in range(rings + 1):
+        for j in range(around):
+            a, b = math.pi * (i + 0.01 * (i == 0) - 0.01 * (i == rings)) / rings, math.pi * j / rings
+            lines.append(f"v {math.sin(a) * math.cos(b):.6f} {math.sin(a) * math.sin(b):.6f} {math.cos(a):.6f}")
+    for i in range(rings):
+        for j in range(around):
+            a, b = i * around + j + 1, i * around + (j + 1) % around + 1
+            lines.append(f"f {a} {a + around} {b + around} {b}")
+    for i in (0, rings):
+        ring = [str(i * around + j + 1) for j in range(around)]
+        lines.append("f " + " ".join(ring if i == 0 else reversed(ring)))
+    return "\n".join(lines) + "\n"
 
 
 class Armadillo(ProgramTest):
