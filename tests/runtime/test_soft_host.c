@@ -277,7 +277,7 @@ START_TEST(what_is_held_hangs_where_it_is_held)
   sbr_double3 o = sbr_character_get_origin(s.world, s.character);
   sbr_soft_hold hold = {0};
   sbf_diagnostic error;
-  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, &error), SBF_FAILED);
   ck_assert_ptr_nonnull(strstr(error.message, "begin with sbr_default_soft_hold"));
   hold = sbr_default_soft_hold();
   hold.target = (sbr_double3){o.x + (double)at.x + 0.3, o.y + (double)at.y + 0.2, o.z + (double)at.z};
