@@ -85,11 +85,11 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 }
 
 /* Change of speed and turn rate in a tick. */
-typedef struct velocity_gain {
+typedef struct velocity_change {
   float ahead, aside, turn;
-} velocity_gain;
+} velocity_change;
 
-static velocity_gain limited_gain(
+static velocity_change limited_change(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float inverse_mass = 1 - sbri_exp(-input->tick_s / SMOOTHING_S), fraction = 1;
   float ahead = (state->pace.step_limit * input->forward - state->motion.forward) * inverse_mass;
@@ -102,13 +102,13 @@ static velocity_gain limited_gain(
     float change = sqrtf(ahead * ahead + aside * aside + round * round);
     fraction = change > max ? max / change : 1;
   }
-  return (velocity_gain){fraction * ahead, fraction * aside, fraction * turn};
+  return (velocity_change){fraction * ahead, fraction * aside, fraction * turn};
 }
 
 float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_input *input, float radius_m) {
-  velocity_gain gain = limited_gain(rig, memory, input);
-  float round = gain.turn * radius_m;
-  return sqrtf(gain.ahead * gain.ahead + gain.aside * gain.aside + round * round);
+  velocity_change change = limited_change(rig, memory, input);
+  float round = change.turn * radius_m;
+  return sqrtf(change.ahead * change.ahead + change.aside * change.aside + round * round);
 }
 
 static bool is_displaced(const sbri_gait_input *input) {
@@ -158,10 +158,10 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     sbri_motion_tick(rig, state, input, direction);
     return round;
   }
-  velocity_gain gain = limited_gain(rig, state, input);
-  state->motion.forward += gain.ahead;
-  state->motion.sideways += gain.aside;
-  state->motion.turn += gain.turn;
+  velocity_change change = limited_change(rig, state, input);
+  state->motion.forward += change.ahead;
+  state->motion.sideways += change.aside;
+  state->motion.turn += change.turn;
   float speed =
       sqrtf(state->motion.forward * state->motion.forward + state->motion.sideways * state->motion.sideways);
   if (!wanted && speed < STILL * input->scale && fabsf(state->motion.turn) < STILL) {

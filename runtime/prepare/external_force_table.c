@@ -129,15 +129,15 @@ static bool make_island(sbr_model *model, sbri_island *island, sbfi_arena *scrat
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = &model->bodies[island->bodies[b]];
     const sbf_attributes *is = &body->source->attributes;
-    bool carried = body->surface.skin.vertex_count && body->surface.skin.frame_vertex_count == 0;
+    bool embedded = body->surface.skin.vertex_count && body->surface.skin.frame_vertex_count == 0;
     if (!make_hinges(model, body)) return false;
-    if (is->pressure_mode == SBF_PRESSURE_MODE_GAS && carried && body->surface.rest_volume_m3 > 0) {
+    if (is->pressure_mode == SBF_PRESSURE_MODE_GAS && embedded && body->surface.rest_volume_m3 > 0) {
       body->gas.pressure_pa = is->pressure;
       body->gas.volume_m3 = sbri_surface_rest_volume(body);
       if (!find_gas_factors(model, body)) return false;
       square += gas_bound(island, body);
     }
-    if (carried) body->medium_kg_m3 = environment->media_density;
+    if (embedded) body->medium_kg_m3 = environment->media_density;
     square += hinges_bound(island, body, rows);
     island->stability.has_external_forces = island->stability.has_external_forces ||
                                             body->elements.hinge_count || body->gas.pressure_pa != 0 ||

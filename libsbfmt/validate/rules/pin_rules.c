@@ -138,8 +138,8 @@ static void check_body(sbfi_validation *v, const sbf_soft_body *body, const char
     pinned_point here = {
         v, body, level->positions.at, NULL, level->positions.count, level->positions.count, parent.text};
     check_sets(&here, &level->pins);
-    bool carried = level->model == SBF_ELASTIC_MODEL_JIGGLE; /* its bone moves it, without pins */
-    if (body->bone >= 0 && level->pins.count == 0 && !carried)
+    bool jiggles = level->model == SBF_ELASTIC_MODEL_JIGGLE; /* its bone moves it, without pins */
+    if (body->bone >= 0 && level->pins.count == 0 && !jiggles)
       sbfi_found(v, SBF_CODE_SECTION_UNHELD, parent.text, -1,
           "section '%s' has a bone and no pins, it falls off", sbfi_label(body->name, body->id));
   }
