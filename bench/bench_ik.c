@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "ik/ik.h"
+#include "animation/ik/ik.h"
 #include "measuring.h"
 
 enum { JOINTS = 11, TARGETS = 1000 };

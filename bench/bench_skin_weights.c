@@ -44,8 +44,8 @@ static void motions_of(const rigged_model *m, const sbfi_bone_frame *frames, bon
     const sbf_bone *bone = &m->bones[b];
     const double rest[4] = {bone->rotation.x, bone->rotation.y, bone->rotation.z, bone->rotation.w};
     double back[4];
-    sbfi_turn_undo(rest, back);
-    sbfi_turn_product(frames[b].rotation, back, motions[b].rotation);
+    sbfi_quatd_conjugate(rest, back);
+    sbfi_quatd_multiply(frames[b].rotation, back, motions[b].rotation);
     memcpy(motions[b].position, frames[b].position, sizeof motions[b].position);
     motions[b].rest[0] = bone->head.x, motions[b].rest[1] = bone->head.y, motions[b].rest[2] = bone->head.z;
   }
@@ -54,7 +54,7 @@ static void motions_of(const rigged_model *m, const sbfi_bone_frame *frames, bon
 static void add_moved(const bone_motion *motion, sbf_vec3 point, double weight, double to[3]) {
   const double from[3] = {point.x - motion->rest[0], point.y - motion->rest[1], point.z - motion->rest[2]};
   double direction[3];
-  sbfi_turn_vector(motion->rotation, from, direction);
+  sbfi_quatd_rotate(motion->rotation, from, direction);
   for (int k = 0; k < 3; k++) to[k] += weight * (motion->position[k] + direction[k]);
 }
 

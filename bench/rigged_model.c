@@ -128,7 +128,7 @@ static void bend(const rigged_model *m, uint32_t number, sbfi_bone_frame *frames
       rotation[3] = half[1];
     }
     int32_t parent = m->bones[b].parent;
-    sbfi_turn_product(rotation, rest.rotation, frames[b].rotation);
+    sbfi_quatd_multiply(rotation, rest.rotation, frames[b].rotation);
     if (parent == SBF_NONE) continue;
     /* The parent stands before, and is posed already. */
     const sbf_quat q = m->bones[parent].rotation;
@@ -136,12 +136,12 @@ static void bend(const rigged_model *m, uint32_t number, sbfi_bone_frame *frames
     const sbf_vec3 head = m->bones[parent].head;
     const double from[3] = {rest.position[0] - head.x, rest.position[1] - head.y, rest.position[2] - head.z};
     double moved[4];
-    sbfi_turn_undo(parent_rest, back);
-    sbfi_turn_product(frames[parent].rotation, back, moved);
-    sbfi_turn_vector(moved, from, direction);
+    sbfi_quatd_conjugate(parent_rest, back);
+    sbfi_quatd_multiply(frames[parent].rotation, back, moved);
+    sbfi_quatd_rotate(moved, from, direction);
     for (int k = 0; k < 3; k++) frames[b].position[k] = frames[parent].position[k] + direction[k];
-    sbfi_turn_product(moved, rotation, frames[b].rotation);
-    sbfi_turn_product(frames[b].rotation, rest.rotation, frames[b].rotation);
+    sbfi_quatd_multiply(moved, rotation, frames[b].rotation);
+    sbfi_quatd_multiply(frames[b].rotation, rest.rotation, frames[b].rotation);
   }
 }
 

@@ -23,13 +23,13 @@ static inline sbfi_progress sbfi_progress_part(sbfi_progress of, double from, do
 }
 
 /* `done`, 0..1, of this work; false: end it. */
-static inline bool sbfi_progress_say(sbfi_progress progress, double done) {
+static inline bool sbfi_progress_report(sbfi_progress progress, double done) {
   return !progress.call || progress.call(progress.user, progress.from + (progress.to - progress.from) * done);
 }
 
 /* In a loop: asks every 4096th time alone. */
 static inline bool sbfi_progress_step(sbfi_progress progress, size_t step, size_t step_count) {
-  return step % 4096 != 0 || sbfi_progress_say(progress, (double)step / (double)step_count);
+  return step % 4096 != 0 || sbfi_progress_report(progress, (double)step / (double)step_count);
 }
 
 #endif

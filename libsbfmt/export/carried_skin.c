@@ -33,7 +33,7 @@ static void visit(const sbf_asset *asset, uint32_t render_mesh, carried *c) {
   }
 }
 
-bool sbfi_export_carried_skin(
+bool sbfi_export_section_skin(
     const sbf_asset *asset, uint32_t render_mesh, sbfi_arena *arena, const sbf_skin **made) {
   uint32_t points = asset->render_meshes.at[render_mesh].mesh.positions.count, all = 0;
   *made = NULL;

@@ -16,7 +16,7 @@ static const struct {
 sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error) {
   sbf_export_options taken = {0};
-  if (!sbfi_options_take(&taken, sizeof taken, options))
+  if (!sbfi_options_copy(&taken, sizeof taken, options))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_export_options has a size that no version had");
   options = &taken;
   const char *ending = strrchr(path, '.');

@@ -67,7 +67,7 @@ const sbf_level *sbfi_export_level(const sbf_soft_body *body);
 float sbfi_export_pin_weight(const sbf_pin_set *set, uint32_t k);
 /* Skin of a mesh that sections embed, from their bones; NULL: none does. Allocates from `arena`; false if
  * memory runs out. */
-bool sbfi_export_carried_skin(
+bool sbfi_export_section_skin(
     const sbf_asset *asset, uint32_t render_mesh, sbfi_arena *arena, const sbf_skin **made);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include "export/glb.h"
 #include "model/level_mesh.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 static void unit(sbf_quat q, double to[4]) {
   to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w;
@@ -20,10 +20,10 @@ void sbfi_glb_compute_local(
   if (parent) {
     const double from[3] = {parent->position.x, parent->position.y, parent->position.z};
     unit(parent->rotation, up);
-    sbfi_turn_undo(up, up);
+    sbfi_quatd_conjugate(up, up);
     for (int k = 0; k < 3; k++) at[k] -= from[k];
-    sbfi_turn_vector(up, at, at);
-    sbfi_turn_product(up, orientation, orientation);
+    sbfi_quatd_rotate(up, at, at);
+    sbfi_quatd_multiply(up, orientation, orientation);
   }
   for (int k = 0; k < 3; k++) translation[k] = (float)at[k];
   for (int k = 0; k < 4; k++) rotation[k] = (float)orientation[k];
@@ -72,7 +72,7 @@ void sbfi_glb_choose_meshes(sbfi_glb *g) {
     mesh->node = node++;
     mesh->target_count = mesh->full->shape_keys.count + (g->e->motion ? g->e->motion->frame_count : 0);
     mesh->skin = mesh->full->skin && asset->bones.count ? mesh->full->skin : NULL;
-    if (!mesh->skin && mesh->full->bone < 0 && !sbfi_export_carried_skin(asset, i, &g->arena, &mesh->skin)) {
+    if (!mesh->skin && mesh->full->bone < 0 && !sbfi_export_section_skin(asset, i, &g->arena, &mesh->skin)) {
       g->failed = true;
       return;
     }
@@ -159,7 +159,7 @@ static void write_skin(sbfi_glb *g) {
     const double rotation[4] = {q[0], q[1], q[2], q[3]};
     for (int column = 0; column < 3; column++) {
       double axis[3] = {column == 0, column == 1, column == 2};
-      sbfi_turn_vector(rotation, axis, axis);
+      sbfi_quatd_rotate(rotation, axis, axis);
       for (int row = 0; row < 3; row++) binds[i][4 * column + row] = (float)axis[row];
     }
     for (int row = 0; row < 3; row++) binds[i][12 + row] = t[row];

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "export/glb.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 struct sbfi_glb_normals {
   const sbf_render_mesh *mesh;
@@ -98,7 +98,7 @@ sbf_vec3 sbfi_glb_normals_offset(const sbfi_glb_normals *normals, uint32_t corne
   const double own[3] = {normal.x, normal.y, normal.z};
   double now[3];
   if (!unit(normals->rest[pair], from) || !unit(normals->now[pair], to)) return (sbf_vec3){0, 0, 0};
-  sbfi_turn_between(from, to, rotation);
-  sbfi_turn_vector(rotation, own, now);
+  sbfi_quatd_between(from, to, rotation);
+  sbfi_quatd_rotate(rotation, own, now);
   return (sbf_vec3){(float)(now[0] - own[0]), (float)(now[1] - own[1]), (float)(now[2] - own[2])};
 }

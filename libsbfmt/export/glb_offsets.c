@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "export/glb.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 typedef sbfi_glb_affine affine;
 
@@ -18,16 +18,16 @@ static affine motion_of(const sbfi_glb *g, uint32_t frame, uint32_t bone) {
   double a[4] = {now.x, now.y, now.z, now.w};
   double b[4] = {rest->rotation.x, rest->rotation.y, rest->rotation.z, rest->rotation.w};
   affine to;
-  sbfi_turn_undo(b, b);
-  sbfi_turn_product(a, b, a);
+  sbfi_quatd_conjugate(b, b);
+  sbfi_quatd_multiply(a, b, a);
   for (int column = 0; column < 3; column++) {
     double axis[3] = {column == 0, column == 1, column == 2};
-    sbfi_turn_vector(a, axis, axis);
+    sbfi_quatd_rotate(a, axis, axis);
     for (int row = 0; row < 3; row++) to.m[row][column] = axis[row];
   }
   const double head[3] = {rest->head.x, rest->head.y, rest->head.z};
   double moved[3];
-  sbfi_turn_vector(a, head, moved);
+  sbfi_quatd_rotate(a, head, moved);
   to.t[0] = (double)position.x - moved[0];
   to.t[1] = (double)position.y - moved[1];
   to.t[2] = (double)position.z - moved[2];

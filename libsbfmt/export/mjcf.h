@@ -38,7 +38,7 @@ typedef struct mjcf_writer {
 /* A missing end of a joint. */
 #define MJCF_END UINT32_MAX
 
-sbf_vec3 sbfi_mjcf_turned(sbf_vec3 v);
+sbf_vec3 sbfi_mjcf_from_asset(sbf_vec3 v);
 sbf_vec3 sbfi_mjcf_rotated(sbf_quat q, sbf_vec3 v);
 void sbfi_mjcf_write_vec3(mjcf_writer *w, const char *name, sbf_vec3 asset_space); /* an attribute, rotated */
 void sbfi_mjcf_write_f32(mjcf_writer *w, const char *name, float value);
@@ -51,13 +51,13 @@ float sbfi_mjcf_point_mass(const mjcf_flex *flex, uint32_t point); /* kg; never 
 float sbfi_mjcf_ratio(const sbf_soft_body *body);                  /* Poisson's ratio, as MuJoCo accepts it */
 
 /* Each returns false if memory runs out. */
-bool sbfi_mjcf_take_flexes(mjcf_writer *w);
+bool sbfi_mjcf_collect_flexes(mjcf_writer *w);
 /* The single modulus (Pa) or stiffness (N/m) of a flex, the mean if its elements `differ`. */
 bool sbfi_mjcf_matter(mjcf_writer *w, const mjcf_flex *flex, float *value, bool *differ);
 /* Stable time step of the written model in seconds. */
 bool sbfi_mjcf_timestep(mjcf_writer *w, float *step);
-bool sbfi_mjcf_take_joints(mjcf_writer *w);
-bool sbfi_mjcf_take_contacts(mjcf_writer *w); /* after the flexes */
+bool sbfi_mjcf_collect_joints(mjcf_writer *w);
+bool sbfi_mjcf_collect_contacts(mjcf_writer *w); /* after the flexes */
 void sbfi_mjcf_write_holders_and_points(mjcf_writer *w);
 bool sbfi_mjcf_write_flexes(mjcf_writer *w);
 void sbfi_mjcf_write_meshes(mjcf_writer *w);

@@ -167,7 +167,7 @@ static void sort_flexes(mjcf_writer *w, const extent *softs, const extent *rigid
   }
 }
 
-bool sbfi_mjcf_take_contacts(mjcf_writer *w) {
+bool sbfi_mjcf_collect_contacts(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   uint32_t bodies = asset->rigid_bodies.count, softs = asset->soft_bodies.count;
   extent *of_softs = sbfi_arena_allocate(&w->scratch, (size_t)softs + 1, sizeof *of_softs);

@@ -62,7 +62,7 @@ static bool take_flex(mjcf_writer *w, mjcf_flex *flex) {
   return true;
 }
 
-bool sbfi_mjcf_take_flexes(mjcf_writer *w) {
+bool sbfi_mjcf_collect_flexes(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   uint32_t bodies = asset->soft_bodies.count;
   w->flexes = sbfi_arena_allocate(&w->scratch, bodies + 1, sizeof *w->flexes);
@@ -251,7 +251,7 @@ static void write_vertices(mjcf_writer *w, const mjcf_flex *flex, uint32_t b) {
       from = asset->bones.at[set->bone].head;
     else if (set->rigid_body >= 0)
       from = asset->rigid_bodies.at[set->rigid_body].center;
-    sbfi_export_vec3(w->e, sbfi_mjcf_turned(minus(flex->positions[p], from)));
+    sbfi_export_vec3(w->e, sbfi_mjcf_from_asset(minus(flex->positions[p], from)));
   }
   sbfi_text_char(&w->e->text, '"');
 }

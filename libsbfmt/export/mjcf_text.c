@@ -3,7 +3,7 @@
 
 #include "export/mjcf.h"
 
-sbf_vec3 sbfi_mjcf_turned(sbf_vec3 v) {
+sbf_vec3 sbfi_mjcf_from_asset(sbf_vec3 v) {
   return (sbf_vec3){v.x, 0 - v.z, v.y};
 }
 
@@ -14,7 +14,7 @@ void sbfi_mjcf_write_f32(mjcf_writer *w, const char *name, float value) {
 }
 
 void sbfi_mjcf_write_vec3(mjcf_writer *w, const char *name, sbf_vec3 asset_space) {
-  const sbf_vec3 v = sbfi_mjcf_turned(asset_space);
+  const sbf_vec3 v = sbfi_mjcf_from_asset(asset_space);
   const float numbers[3] = {v.x, v.y, v.z};
   sbfi_export_format(w->e, " %s=\"", name);
   for (int k = 0; k < 3; k++) {

@@ -14,7 +14,7 @@ static int32_t body_at(const sbf_asset *asset, uint32_t end) {
   return end & 1 ? joint->body_b : joint->body_a;
 }
 
-bool sbfi_mjcf_take_joints(mjcf_writer *w) {
+bool sbfi_mjcf_collect_joints(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   uint32_t bodies = asset->rigid_bodies.count, joints = asset->joints.count;
   uint32_t *sets = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *sets);
@@ -57,7 +57,8 @@ void sbfi_mjcf_write_meshes(mjcf_writer *w) {
     sbfi_text_string(&w->e->text, "\" vertex=\"");
     for (uint32_t p = 0; p < hull->positions.count; p++) {
       sbf_vec3 at = hull->positions.at[p], center = bodies.at[i].center;
-      sbfi_export_vec3(w->e, sbfi_mjcf_turned((sbf_vec3){at.x - center.x, at.y - center.y, at.z - center.z}));
+      sbfi_export_vec3(
+          w->e, sbfi_mjcf_from_asset((sbf_vec3){at.x - center.x, at.y - center.y, at.z - center.z}));
     }
     sbfi_text_string(&w->e->text, "\"/>\n");
   }

@@ -22,7 +22,7 @@ static void write_all(mjcf_writer *w, float step) {
 
 static bool write_text(mjcf_writer *w) {
   float step;
-  if (!sbfi_mjcf_take_flexes(w) || !sbfi_mjcf_take_contacts(w) || !sbfi_mjcf_take_joints(w) ||
+  if (!sbfi_mjcf_collect_flexes(w) || !sbfi_mjcf_collect_contacts(w) || !sbfi_mjcf_collect_joints(w) ||
       !sbfi_mjcf_timestep(w, &step))
     return false;
   write_all(w, step);

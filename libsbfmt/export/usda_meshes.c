@@ -5,7 +5,7 @@
 
 #include "export/usda.h"
 #include "model/level_mesh.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 /* Body that embeds a mesh, SBF_NONE for none; -2 for several. */
 static int32_t carrier_of(const sbf_asset *asset, uint32_t mesh) {
@@ -45,7 +45,7 @@ bool sbfi_usda_choose_meshes(usda_writer *w) {
     if (body == -2) w->shared++;
     if (body >= 0 && asset->soft_bodies.at[body].bone < 0 && sbfi_export_level(&asset->soft_bodies.at[body]))
       mesh->body = body, w->keys += mesh->full->shape_keys.count;
-    else if (!sbfi_export_carried_skin(asset, i, &w->scratch, &mesh->skin))
+    else if (!sbfi_export_section_skin(asset, i, &w->scratch, &mesh->skin))
       return false;
   }
   return true;
@@ -78,7 +78,7 @@ static void write_matrix(usda_writer *w, const double rotation[4], const double 
   sbfi_text_char(&w->e->text, '(');
   for (int k = 0; k < 4; k++) {
     double axis[3] = {k == 0, k == 1, k == 2};
-    if (k < 3) sbfi_turn_vector(rotation, axis, axis);
+    if (k < 3) sbfi_quatd_rotate(rotation, axis, axis);
     for (int i = 0; i < 3; i++) row[i] = (float)(k < 3 ? axis[i] : at[i]);
     row[3] = k == 3;
     if (k) sbfi_text_string(&w->e->text, ", ");
@@ -99,10 +99,10 @@ static void write_transforms(usda_writer *w, const char *declaration, bool local
       const sbf_bone *parent = &asset->bones.at[bone->parent];
       double back[4];
       turn_of(parent->rotation, back);
-      sbfi_turn_undo(back, back);
+      sbfi_quatd_conjugate(back, back);
       at[0] -= parent->head.x, at[1] -= parent->head.y, at[2] -= parent->head.z;
-      sbfi_turn_vector(back, at, at);
-      sbfi_turn_product(back, rotation, rotation);
+      sbfi_quatd_rotate(back, at, at);
+      sbfi_quatd_multiply(back, rotation, rotation);
     }
     if (b) sbfi_text_string(&w->e->text, ", ");
     write_matrix(w, rotation, at);

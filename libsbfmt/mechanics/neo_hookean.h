@@ -1,5 +1,6 @@
 /* Neo-Hookean tetrahedron in double precision: the reference for all schemes, the tests and `build`. The
- * schemes' own kernels (runtime/solvers) process eight lanes in single precision and are tested against it.
+ * schemes' own kernels (runtime/soft/solvers) process eight lanes in single precision and are tested against
+ * it.
  *
  * With F the deformation gradient, J = det F, V the rest volume in m^3, and E in Pa and nu for small strains,
  *

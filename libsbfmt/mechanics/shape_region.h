@@ -1,5 +1,5 @@
 /* Shape matching region in double precision: the reference for all schemes, the tests and `build`. The
- * runtime's kernel (runtime/solvers/region_forces.h) processes eight regions in single precision and is
+ * runtime's kernel (runtime/soft/solvers/region_forces.h) processes eight regions in single precision and is
  * tested against it.
  *
  * With weights a_i in kg, c and c0 their current and rest centres, r_i = X_i - c0 and R the rotation that

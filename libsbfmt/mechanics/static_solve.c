@@ -130,7 +130,7 @@ static double find_forces(const statics *s, const double *positions, double *for
 /* ---- Newton ---- */
 
 static bool continues(statics *s) {
-  if (!s->ended) s->ended = !sbfi_progress_say(s->problem->progress, (double)s->steps / s->max_steps);
+  if (!s->ended) s->ended = !sbfi_progress_report(s->problem->progress, (double)s->steps / s->max_steps);
   return !s->ended && (s->problem->max_products == 0 || s->products < s->problem->max_products);
 }
 

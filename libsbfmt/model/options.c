@@ -8,7 +8,7 @@ static size_t given_size(size_t stated, size_t known) {
   return stated && stated < known ? stated : known;
 }
 
-bool sbfi_options_take(void *to, size_t known, const void *given) {
+bool sbfi_options_copy(void *to, size_t known, const void *given) {
   size_t stated = 0;
   if (given) memcpy(&stated, given, sizeof stated);
   if (stated && stated < sizeof stated) return false;

@@ -6,7 +6,7 @@
 
 /* Copies the caller's struct to `to`, which has `known` bytes and is zeroed. The first member of the
  * struct is its size; 0 means all. `given` may be NULL. False if no version had that size. */
-bool sbfi_options_take(void *to, size_t known, const void *given);
+bool sbfi_options_copy(void *to, size_t known, const void *given);
 
 /* Copies the options and fills in all defaults except `inflated_bytes`; `given` may be NULL, or of an
  * older version and shorter. */

@@ -5,7 +5,7 @@
 
 #include "base/diagnostic.h"
 #include "base/memory.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 #include "sbfmt/asset.h"
 
 /* Part of a body, as far as retargeting distinguishes them. */
@@ -55,7 +55,7 @@ void sbfi_clip_pose(const sbfi_clip_poses *poses, float time_s, sbfi_bone_frame 
 /* Retargets the clips of `from` to the bones of an asset under construction and adds them, as described
  * for sbr_asset_retarget_clips. `file` names the origin in messages and unnamed clips. On failure the
  * asset's clips do not change. */
-sbf_status sbfi_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *file,
+sbf_status sbfi_retarget_clips(sbf_asset *asset, const sbf_asset *from, const char *file,
     const sbf_allocator *allocator, sbfi_reporter *reporter, sbf_diagnostic *error);
 
 #endif

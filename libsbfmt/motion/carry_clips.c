@@ -68,17 +68,17 @@ static void align_bones(motion *m, const sbfi_bone_frame *from_rest) {
     double back[4];
     if (match->part == SBFI_PART_LIMB || match->part == SBFI_PART_THIGH) {
       double here[3], there[3];
-      sbfi_turn_vector(m->rest[i].rotation, along, here);
-      sbfi_turn_vector(source, along, there);
+      sbfi_quatd_rotate(m->rest[i].rotation, along, here);
+      sbfi_quatd_rotate(source, along, there);
       double dot = here[0] * there[0] + here[1] * there[1] + here[2] * there[2];
-      if (dot > MIN_ALIKE) sbfi_turn_between(here, there, m->align[i]);
+      if (dot > MIN_ALIKE) sbfi_quatd_between(here, there, m->align[i]);
     } else if (match->part == SBFI_PART_HAND && parent != SBF_NONE &&
                m->matches[parent].part == SBFI_PART_LIMB) {
       memcpy(m->align[i], m->align[parent], sizeof none);
     }
-    sbfi_turn_undo(source, back);
-    sbfi_turn_product(m->align[i], m->rest[i].rotation, m->aligned[i]);
-    sbfi_turn_product(back, m->aligned[i], m->aligned[i]);
+    sbfi_quatd_conjugate(source, back);
+    sbfi_quatd_multiply(m->align[i], m->rest[i].rotation, m->aligned[i]);
+    sbfi_quatd_multiply(back, m->aligned[i], m->aligned[i]);
   }
 }
 
@@ -87,7 +87,7 @@ static double lowest(const sbf_asset *asset, const sbfi_bone_frame *rest) {
   double low = INFINITY;
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     double tail[3];
-    sbfi_turn_vector(rest[i].rotation, along, tail);
+    sbfi_quatd_rotate(rest[i].rotation, along, tail);
     low = fmin(low, rest[i].position[1]);
     low = fmin(low, rest[i].position[1] + tail[1] * (double)asset->bones.at[i].length);
   }
@@ -136,8 +136,8 @@ static void find_traveller(motion *m, const sbfi_bone_frame *from_rest) {
     m->pivot[k] = own[k];
     m->arm[k] = own[k] - m->rest[m->traveller].position[k];
   }
-  sbfi_turn_undo(m->rest[m->traveller].rotation, back);
-  sbfi_turn_vector(back, m->arm, m->arm);
+  sbfi_quatd_conjugate(m->rest[m->traveller].rotation, back);
+  sbfi_quatd_rotate(back, m->arm, m->arm);
 }
 
 static sbf_status prepare(motion *m) {
@@ -245,24 +245,24 @@ static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_fra
     const sbfi_bone_frame *above = parent == SBF_NONE ? &root : &frames[parent];
     double back[4], local[4];
     sbfi_bone_frame *f = &frames[i];
-    sbfi_turn_product(above->rotation, rest->rest_local[i].rotation, f->rotation);
-    sbfi_turn_vector(above->rotation, rest->rest_local[i].position, f->position);
+    sbfi_quatd_multiply(above->rotation, rest->rest_local[i].rotation, f->rotation);
+    sbfi_quatd_rotate(above->rotation, rest->rest_local[i].position, f->position);
     for (int k = 0; k < 3; k++) f->position[k] += above->position[k];
-    sbfi_turn_undo(above->rotation, back);
+    sbfi_quatd_conjugate(above->rotation, back);
     if (m->matches[i].source != SBF_NONE) {
-      sbfi_turn_product(source[m->matches[i].source].rotation, m->aligned[i], f->rotation);
-      sbfi_turn_product(back, f->rotation, local);
+      sbfi_quatd_multiply(source[m->matches[i].source].rotation, m->aligned[i], f->rotation);
+      sbfi_quatd_multiply(back, f->rotation, local);
       put_rotation(keys[i].rotations + 4 * (size_t)key, local, key == 0);
     }
     if ((int32_t)i != m->traveller) continue;
     double direction[3], arm[3], within[3];
     middle_of(source, m->leaders, m->pivot_count, direction);
-    sbfi_turn_vector(f->rotation, m->arm, arm);
+    sbfi_quatd_rotate(f->rotation, m->arm, arm);
     for (int k = 0; k < 3; k++) {
       f->position[k] = m->pivot[k] + m->ratio * (direction[k] - start[k]) - arm[k];
       within[k] = f->position[k] - above->position[k];
     }
-    sbfi_turn_vector(back, within, within);
+    sbfi_quatd_rotate(back, within, within);
     for (int k = 0; k < 3; k++) keys[i].positions[3 * (size_t)key + (size_t)k] = (float)within[k];
   }
 }
@@ -387,7 +387,7 @@ static sbf_status add_clips(motion *m) {
 
 /* --- The call ----------------------------------------------------------------------------------------- */
 
-sbf_status sbfi_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *file,
+sbf_status sbfi_retarget_clips(sbf_asset *asset, const sbf_asset *from, const char *file,
     const sbf_allocator *allocator, sbfi_reporter *reporter, sbf_diagnostic *error) {
   sbf_diagnostic unseen;
   motion m = {

@@ -33,10 +33,10 @@ bool sbfi_clip_poses_init(
     p->rest_local[i] = p->rest[i];
     if (parent == SBF_NONE) continue;
     double back[4], from[3];
-    sbfi_turn_undo(p->rest[parent].rotation, back);
+    sbfi_quatd_conjugate(p->rest[parent].rotation, back);
     for (int k = 0; k < 3; k++) from[k] = p->rest[i].position[k] - p->rest[parent].position[k];
-    sbfi_turn_product(back, p->rest[i].rotation, p->rest_local[i].rotation);
-    sbfi_turn_vector(back, from, p->rest_local[i].position);
+    sbfi_quatd_multiply(back, p->rest[i].rotation, p->rest_local[i].rotation);
+    sbfi_quatd_rotate(back, from, p->rest_local[i].position);
   }
   return true;
 }
@@ -78,7 +78,7 @@ static void value_at(const sbf_track *track, float time_s, uint32_t width, doubl
     if (is_cubic)
       cubic(track, key, width, t, span, to);
     else if (width == 4)
-      sbfi_turn_mix(before, after, t, to);
+      sbfi_quatd_slerp(before, after, t, to);
     else
       for (uint32_t k = 0; k < width; k++) to[k] = before[k] + (after[k] - before[k]) * t;
   }
@@ -95,8 +95,8 @@ void sbfi_clip_pose(const sbfi_clip_poses *p, float time_s, sbfi_bone_frame *fra
     if (p->rotations[i]) value_at(p->rotations[i], time_s, 4, own.rotation);
     frames[i] = own;
     if (parent == SBF_NONE) continue;
-    sbfi_turn_product(frames[parent].rotation, own.rotation, frames[i].rotation);
-    sbfi_turn_vector(frames[parent].rotation, own.position, frames[i].position);
+    sbfi_quatd_multiply(frames[parent].rotation, own.rotation, frames[i].rotation);
+    sbfi_quatd_rotate(frames[parent].rotation, own.position, frames[i].position);
     for (int k = 0; k < 3; k++) frames[i].position[k] += frames[parent].position[k];
   }
 }

@@ -3,12 +3,12 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "collide/external_body.h"
 #include "contact/contact_block.h"
 #include "contact/ground_contacts.h"
 #include "contact/sample_motion.h"
 #include "contact/self_contacts.h"
 #include "contact/soft_shape_contacts.h"
+#include "shapes/external_body.h"
 
 /* Bodies without samples have one ground plane per point. Turns these planes into contacts, so that they are
  * solved together with contacts with shapes. */

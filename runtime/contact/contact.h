@@ -1,10 +1,10 @@
 /* Contact of soft bodies with the ground.
  *
  * The contact points are the body's points, or surface samples where points only embed the surface
- * (prepare/contact_samples.c, solvers/soft_contacts.h). Once per tick the ground below each candidate becomes
- * a plane. In each substep, a point that would pass its plane loses normal velocity so that it just arrives,
- * or bounces if it is fast. Points below the plane are moved up at a limited speed that does not become
- * velocity. Contacts never pull.
+ * (prepare/contact_samples.c, soft/solvers/soft_contacts.h). Once per tick the ground below each candidate
+ * becomes a plane. In each substep, a point that would pass its plane loses normal velocity so that it just
+ * arrives, or bounces if it is fast. Points below the plane are moved up at a limited speed that does not
+ * become velocity. Contacts never pull.
  *
  * Coulomb friction removes tangential velocity. It is bounded by the friction coefficient times the mean of
  * the normal changes in recent substeps of the tick. With the last change alone, surface waves as short as a
@@ -12,7 +12,7 @@
  * creep down slopes on which they should stick. Sliding friction between elastic bodies is ill-posed in this
  * way unless it follows pressure with a delay (J. R. Rice, N. Lapusta, K. Ranjith, Rate and state dependent
  * friction and the stability of sliding between elastically deformable solids, 2001). Longer waves are damped
- * (solvers/slide_damping.h). The friction of an impact is not delayed in its tick. */
+ * (soft/solvers/slide_damping.h). The friction of an impact is not delayed in its tick. */
 #ifndef SBRI_CONTACT_H
 #define SBRI_CONTACT_H
 
@@ -29,7 +29,7 @@ typedef struct sbri_contact_tables {
   sbri_soft_contact *contacts;
   uint32_t *contact_counts;
   struct sbri_external_bodies *external_bodies; /* of the body */
-  struct sbri_touching *touched;                /* contacts of the body in the previous tick; for events */
+  struct sbri_contact_reports *touched;         /* contacts of the body in the previous tick; for events */
   uint8_t *slot_contacts;      /* (slots) scratch: number of contacts that move each point, capped at 2 */
   const sbri_skin *surface;    /* of the body, at its present positions */
   struct sbri_box *self_boxes; /* scratch of the body for self contact */

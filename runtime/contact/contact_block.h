@@ -1,4 +1,4 @@
-/* Contacts of a soft body in blocks of eight, for solvers/contact_lanes.h. */
+/* Contacts of a soft body in blocks of eight, for soft/solvers/contact_lanes.h. */
 #ifndef SBRI_CONTACT_BLOCK_H
 #define SBRI_CONTACT_BLOCK_H
 
@@ -20,7 +20,7 @@ float sbri_contact_friction_at(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_soft_contact *contact);
 
 /* Number of blocks of the body in this tick; 0: its contacts are solved in sequence
- * (solvers/soft_contacts.h). */
+ * (soft/solvers/soft_contacts.h). */
 static inline uint32_t sbri_contact_block_count(const sbri_island_tick *t, const sbri_body *body) {
   return t->contacts.block_counts ? t->contacts.block_counts[body - t->model->bodies] : 0;
 }

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "collide/ground.h"
-#include "collide/touching.h"
 #include "contact/sample_motion.h"
+#include "shapes/contact_reports.h"
+#include "shapes/ground.h"
 
 /* Fraction of the body's size. */
 static const float MIN_MARGIN_FRACTION = 5e-4f;
@@ -89,7 +89,7 @@ static float reach_of(const sbri_island_tick *t, const extent *e, float displace
 
 /* For events: stores a point that reaches its plane within the tick, if it is the fastest. */
 static void store_ground_speed(
-    const sbri_island_tick *t, uint32_t slot, sbf_vec3 normal, float height, sbri_touching *touched) {
+    const sbri_island_tick *t, uint32_t slot, sbf_vec3 normal, float height, sbri_contact_reports *touched) {
   float closing = -sbri_dot(normal, sbri_point_velocity(t, slot)), gap = height * normal.y;
   float gravity_speed = sbri_length(t->environment.gravity) *
                         t->tick_s; /* pinned points just above the ground may be slower than this */

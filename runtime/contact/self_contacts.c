@@ -22,7 +22,7 @@ static const float NEAR_FRACTION = 0.01f;
  * edge. */
 static const float CONNECTED_FRACTION = 0.2f;
 
-static sbri_moving_ball ball_of(const sbri_self_looking *l, const uint32_t *c) {
+static sbri_moving_ball ball_of(const sbri_self_search *l, const uint32_t *c) {
   sbri_moving_ball ball;
   sbf_vec3 p[3];
   float square = 0, directions = 0;
@@ -40,7 +40,7 @@ static sbri_moving_ball ball_of(const sbri_self_looking *l, const uint32_t *c) {
   return ball;
 }
 
-static void make_bounds(const sbri_self_looking *l, sbri_box *boxes, sbri_moving_ball *balls) {
+static void make_bounds(const sbri_self_search *l, sbri_box *boxes, sbri_moving_ball *balls) {
   for (uint32_t f = 0; f < l->body->self.face_count; f++) {
     const uint32_t *c = l->body->self.faces + 3 * (size_t)f;
     boxes[f] = sbri_self_swept(l->tick, c[0], l->rule.outer);
@@ -58,7 +58,7 @@ typedef struct contact_point {
   sbri_box box;
 } contact_point;
 
-static contact_point contact_point_of(const sbri_self_looking *l, uint32_t slot) {
+static contact_point contact_point_of(const sbri_self_search *l, uint32_t slot) {
   contact_point p = {.slot = slot,
       .x = sbri_self_position(l->tick->positions, slot),
       .displacement = sbri_self_displacement(l->tick, slot),
@@ -69,7 +69,7 @@ static contact_point contact_point_of(const sbri_self_looking *l, uint32_t slot)
 }
 
 /* Whether the point may approach the triangle or be behind it. */
-static bool may_intersect(const sbri_self_looking *l, const contact_point *p, uint32_t number) {
+static bool may_intersect(const sbri_self_search *l, const contact_point *p, uint32_t number) {
   const uint32_t *c = l->body->self.faces + 3 * (size_t)number;
   const sbri_moving_ball *ball = &l->balls[number];
   sbf_vec3 offset = sbri_sub(p->x, ball->middle);
@@ -78,7 +78,7 @@ static bool may_intersect(const sbri_self_looking *l, const contact_point *p, ui
          c[0] != p->slot && c[1] != p->slot && c[2] != p->slot;
 }
 
-static sbri_surface_hit check(const sbri_self_looking *l, const contact_point *at, uint32_t number) {
+static sbri_surface_hit check(const sbri_self_search *l, const contact_point *at, uint32_t number) {
   const sbri_island_tick *t = l->tick;
   const uint32_t *c = l->body->self.faces + 3 * (size_t)number;
   sbri_surface_face face;
@@ -90,7 +90,7 @@ static sbri_surface_hit check(const sbri_self_looking *l, const contact_point *a
 }
 
 /* Distance of the point from the triangle at rest; negative behind a surface that encloses a volume. */
-static float rest_gap(const sbri_self_looking *l, uint32_t slot, const uint32_t *corners) {
+static float rest_gap(const sbri_self_search *l, uint32_t slot, const uint32_t *corners) {
   const sbri_point *rest = l->tick->island->rest;
   sbf_vec3 p[3];
   for (int k = 0; k < 3; k++) p[k] = sbri_self_position(rest, corners[k]);
@@ -119,7 +119,7 @@ static void merge_hit(sbri_surface_hit *best, const sbri_surface_hit *one) {
   best->before = before;
 }
 
-static void query_point(const sbri_self_looking *l, const contact_point *p, point_hits *a) {
+static void query_point(const sbri_self_search *l, const contact_point *p, point_hits *a) {
   sbri_bounds_walk walk;
   uint32_t item;
   a->best = a->connected = sbri_surface_nothing();
@@ -147,7 +147,7 @@ static void take_opposite(
 
 /* The most urgent triangle on the opposite side of the most urgent one of all. */
 static bool find_opposite(
-    const sbri_self_looking *l, const contact_point *p, const point_hits *a, sbri_surface_hit *best) {
+    const sbri_self_search *l, const contact_point *p, const point_hits *a, sbri_surface_hit *best) {
   *best = sbri_surface_nothing();
   if (a->other_count <= OTHERS) {
     for (uint32_t i = 0; i < a->other_count; i++) take_opposite(&a->others[i], &a->best, best);
@@ -165,14 +165,14 @@ static bool find_opposite(
   return sbri_surface_found(best);
 }
 
-static void add(const sbri_self_looking *l, uint32_t slot, const sbri_surface_hit *found, float thickness) {
+static void add(const sbri_self_search *l, uint32_t slot, const sbri_surface_hit *found, float thickness) {
   const uint32_t *c = l->body->self.faces + 3 * (size_t)found->face, slots[4] = {slot, c[0], c[1], c[2]};
   const float weights[4] = {1, -found->weights[0], -found->weights[1], -found->weights[2]};
   sbri_sample s = sbri_self_sample(l->tick->island, slots, weights);
   sbri_self_add(l, &s, found->normal, rest_gap(l, slot, c), thickness, false);
 }
 
-static void add_point(const sbri_self_looking *l, uint32_t slot) {
+static void add_point(const sbri_self_search *l, uint32_t slot) {
   point_hits a;
   sbri_surface_hit opposite;
   float thickness = l->body->source->collision.outer_thickness;
@@ -188,7 +188,7 @@ static void add_point(const sbri_self_looking *l, uint32_t slot) {
 void sbri_self_contacts_add(const sbri_island_tick *t, const sbri_body *body,
     const sbri_contact_tables *tables, sbri_bounds_tree *tree) {
   const sbf_collision *rule = &body->source->collision;
-  sbri_self_looking l = {t, body, tables, tree, tables->self_boxes, tables->self_balls,
+  sbri_self_search l = {t, body, tables, tree, tables->self_boxes, tables->self_balls,
       {rule->outer_thickness + NEAR_FRACTION * body->rest_size_m, rule->inner_thickness,
           body->self.is_sheet || body->surface.rest_volume_m3 == 0}};
   uint32_t *count = &tables->contact_counts[body - t->model->bodies], before = *count;

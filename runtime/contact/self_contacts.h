@@ -2,8 +2,8 @@
 #ifndef SBRI_SELF_CONTACTS_H
 #define SBRI_SELF_CONTACTS_H
 
-#include "collide/bounds_tree.h"
 #include "contact/contact.h"
+#include "shapes/bounds_tree.h"
 
 /* Adds to the body's contacts; `tree` has capacity for its self_face_count triangles. */
 void sbri_self_contacts_add(const sbri_island_tick *tick, const sbri_body *body,

@@ -7,8 +7,8 @@
  * and shorten by (R1 + R2) times that motion. So d is along R1 + R2 - ((R1 + R2).e / e.n) n (after P. Volino
  * and N. Magnenat-Thalmann, Resolving Surface Collisions through Intersection Contour Minimization, 2006).
  * Contacts of points and triangles stay active meanwhile, on the present side of each point. */
-#include "collide/sides.h"
 #include "contact/self_query.h"
+#include "shapes/sides.h"
 
 /* Speed at which edges leave triangles, m/s, where the contour bends by this much. It is proportional to the
  * bend below that. */
@@ -17,7 +17,7 @@ static const float EXIT_M_S = 0.2f, FULL_BEND = 0.5f;
 static const float MIN_SINE = 0.1f;
 
 typedef struct crossing_edge {
-  const sbri_self_looking *looking;
+  const sbri_self_search *looking;
   uint32_t ends[2],
       beside[2]; /* slots of the ends; slots of the third corners of its triangles, or SBRI_RIM */
   sbf_vec3 from, displacement;
@@ -27,7 +27,7 @@ static sbf_vec3 position(const crossing_edge *s, uint32_t slot) {
   return sbri_self_position(s->looking->tick->positions, slot);
 }
 
-static crossing_edge edge_of(const sbri_self_looking *l, uint32_t number) {
+static crossing_edge edge_of(const sbri_self_search *l, uint32_t number) {
   const uint32_t *c = l->body->self.faces + number / 3 * 3;
   crossing_edge s = {.looking = l,
       .ends = {c[number % 3], c[(number + 1) % 3]},
@@ -85,7 +85,7 @@ static sbri_sample sample_of(
 }
 
 static void add_crossing(const crossing_edge *s, uint32_t number) {
-  const sbri_self_looking *l = s->looking;
+  const sbri_self_search *l = s->looking;
   const uint32_t *c = l->body->self.faces + 3 * (size_t)number;
   uint32_t *count = &l->tables->contact_counts[l->body - l->tick->model->bodies];
   sbf_vec3 p[3];
@@ -117,7 +117,7 @@ typedef struct plane_triangle {
   sbri_box box;
 } plane_triangle;
 
-static plane_triangle plane_triangle_of(const sbri_self_looking *l, uint32_t number) {
+static plane_triangle plane_triangle_of(const sbri_self_search *l, uint32_t number) {
   const uint32_t *c = l->body->self.faces + 3 * (size_t)number;
   const sbri_point *at = l->tick->positions;
   sbf_vec3 p[3];
@@ -127,7 +127,7 @@ static plane_triangle plane_triangle_of(const sbri_self_looking *l, uint32_t num
 }
 
 /* Whether another triangle is on one side of its plane, or shares an edge with it. */
-static bool cannot_cross(const sbri_self_looking *l, const plane_triangle *f, const uint32_t *c) {
+static bool cannot_cross(const sbri_self_search *l, const plane_triangle *f, const uint32_t *c) {
   int shared = 0, above = 0, below = 0;
   for (int k = 0; k < 3; k++) {
     if (c[k] == f->c[0] || c[k] == f->c[1] || c[k] == f->c[2]) {
@@ -142,7 +142,7 @@ static bool cannot_cross(const sbri_self_looking *l, const plane_triangle *f, co
 
 /* Tests the edges of triangle `of` against triangle `number`, without the edges that belong to another
  * triangle in the table. */
-static void add_crossings(const sbri_self_looking *l, uint32_t of, uint32_t number) {
+static void add_crossings(const sbri_self_search *l, uint32_t of, uint32_t number) {
   for (uint32_t i = 3 * of; i < 3 * of + 3; i++) {
     if (l->body->self.sides[i] == SBRI_SAME_SIDE) continue;
     crossing_edge s = edge_of(l, i);
@@ -150,7 +150,7 @@ static void add_crossings(const sbri_self_looking *l, uint32_t of, uint32_t numb
   }
 }
 
-void sbri_self_crossings_add(const sbri_self_looking *l) {
+void sbri_self_crossings_add(const sbri_self_search *l) {
   for (uint32_t number = 0; number < l->body->self.face_count; number++) {
     const plane_triangle f = plane_triangle_of(l, number);
     sbri_bounds_walk walk;

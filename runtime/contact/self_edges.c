@@ -1,8 +1,8 @@
 /* Self-contact of edges: the rims of a sheet and the ridges of its folds. Crossing edges have no vertex near
  * a face. A contact is a sample with positive weights for one edge and negative ones for the other. */
-#include "collide/edge_query.h"
-#include "collide/sides.h"
 #include "contact/self_query.h"
+#include "shapes/edge_query.h"
+#include "shapes/sides.h"
 
 /* Fraction of the missing distance that is restored per tick between edges closer than the thickness, such as
  * neighbouring rims. Edge contacts keep edges on their sides; point contacts keep the distance. */
@@ -13,7 +13,7 @@ typedef struct edge {
   sbri_soft_edge is;
 } edge;
 
-static edge edge_of(const sbri_self_looking *l, uint32_t triangle, uint32_t side) {
+static edge edge_of(const sbri_self_search *l, uint32_t triangle, uint32_t side) {
   const uint32_t *c = l->body->self.faces + 3 * (size_t)triangle;
   edge e = {.ends = {c[side], c[(side + 1) % 3]}};
   for (int k = 0; k < 2; k++) {
@@ -24,7 +24,7 @@ static edge edge_of(const sbri_self_looking *l, uint32_t triangle, uint32_t side
 }
 
 /* Stores a bit for each edge of a triangle that is a rim or a ridge. */
-static void find_edges(const sbri_self_looking *l) {
+static void find_edges(const sbri_self_search *l) {
   const sbri_point *at = l->tick->positions;
   for (uint32_t f = 0; f < l->body->self.face_count; f++) {
     const uint32_t *c = l->body->self.faces + 3 * (size_t)f, *beside = l->body->self.sides + 3 * (size_t)f;
@@ -48,7 +48,7 @@ static bool are_connected(const sbri_body *body, const edge *p, const edge *q) {
 }
 
 /* Their distance at rest, if they cross each other there. */
-static float rest_distance(const sbri_self_looking *l, const edge *p, const edge *q) {
+static float rest_distance(const sbri_self_search *l, const edge *p, const edge *q) {
   sbri_soft_edge edges[2] = {0};
   sbri_edge_hit found;
   for (int k = 0; k < 2; k++) {
@@ -58,7 +58,7 @@ static float rest_distance(const sbri_self_looking *l, const edge *p, const edge
   return sbri_edges_query(&edges[0], &edges[1], INFINITY, &found) ? found.distance : INFINITY;
 }
 
-static void collide(const sbri_self_looking *l, const edge *p, const edge *q) {
+static void collide(const sbri_self_search *l, const edge *p, const edge *q) {
   sbri_edge_hit found;
   if (are_connected(l->body, p, q) || !sbri_edges_query(&p->is, &q->is, l->rule.outer, &found)) return;
   const uint32_t slots[4] = {p->ends[0], p->ends[1], q->ends[0], q->ends[1]};
@@ -70,7 +70,7 @@ static void collide(const sbri_self_looking *l, const edge *p, const edge *q) {
 }
 
 /* Tests against edges with higher indices only. */
-static void collide_with_later(const sbri_self_looking *l, uint32_t number) {
+static void collide_with_later(const sbri_self_search *l, uint32_t number) {
   edge p = edge_of(l, number / 3, number % 3);
   sbri_box box = sbri_box_join(
       sbri_self_swept(l->tick, p.ends[0], l->rule.outer), sbri_self_swept(l->tick, p.ends[1], l->rule.outer));
@@ -87,7 +87,7 @@ static void collide_with_later(const sbri_self_looking *l, uint32_t number) {
   }
 }
 
-void sbri_self_edges_add(const sbri_self_looking *l) {
+void sbri_self_edges_add(const sbri_self_search *l) {
   find_edges(l);
   for (uint32_t i = 0; i < 3 * l->body->self.face_count; i++)
     if (l->tables->self_edges[i / 3] >> i % 3 & 1) collide_with_later(l, i);

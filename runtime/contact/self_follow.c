@@ -1,9 +1,9 @@
 /* Updates self-contacts in every substep. With planes fixed for a whole tick, points that rotate about a fold
  * would approach within the tick and be corrected in the next; that adds energy, and they would oscillate
  * forever. */
-#include "collide/edge_query.h"
 #include "contact/self_contacts.h"
 #include "contact/self_query.h"
+#include "shapes/edge_query.h"
 
 /* A contact point farther outside its triangle than this fraction of it keeps its barycentric weights. */
 static const float MAX_OUTSIDE = 0.5f;

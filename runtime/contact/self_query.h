@@ -2,16 +2,16 @@
 #ifndef SBRI_SELF_QUERY_H
 #define SBRI_SELF_QUERY_H
 
-#include "collide/bounds_tree.h"
-#include "collide/surface_query.h"
 #include "contact/contact.h"
+#include "shapes/bounds_tree.h"
+#include "shapes/surface_query.h"
 
 /* Fraction of the rest distance that parts keep if it is less than the thickness. */
 #define SBRI_SELF_REST_FRACTION 0.9f
 /* m; parts that are closer at rest count as connected */
 #define SBRI_SELF_TOGETHER_M 1e-5f
 
-typedef struct sbri_self_looking {
+typedef struct sbri_self_search {
   const sbri_island_tick *tick;
   const sbri_body *body;
   const sbri_contact_tables *tables;
@@ -19,7 +19,7 @@ typedef struct sbri_self_looking {
   const sbri_box *boxes;
   const sbri_moving_ball *balls; /* of the triangles at the beginning of the tick */
   sbri_surface_rule rule;
-} sbri_self_looking;
+} sbri_self_search;
 
 static inline sbf_vec3 sbri_self_position(const sbri_point *points, uint32_t slot) {
   return sbri_vec3(points[slot].x, points[slot].y, points[slot].z);
@@ -59,8 +59,8 @@ static inline sbri_sample sbri_self_sample(
 
 /* Adds a contact, up to the capacity. `rest_m` is the distance at rest; `max_m` is the maximum distance to
  * keep. */
-static inline void sbri_self_add(const sbri_self_looking *l, const sbri_sample *s, sbf_vec3 normal,
-    float rest_m, float max_m, bool edges) {
+static inline void sbri_self_add(
+    const sbri_self_search *l, const sbri_sample *s, sbf_vec3 normal, float rest_m, float max_m, bool edges) {
   const sbri_body *body = l->body;
   uint32_t *count = &l->tables->contact_counts[body - l->tick->model->bodies];
   float thickness = max_m;
@@ -78,11 +78,11 @@ static inline void sbri_self_add(const sbri_self_looking *l, const sbri_sample *
 /* ---- self_edges.c ---- */
 
 /* Contacts of crossing edges: rims of a sheet, and edges along which it is bent at present. */
-void sbri_self_edges_add(const sbri_self_looking *query);
+void sbri_self_edges_add(const sbri_self_search *query);
 
 /* ---- self_cross.c ---- */
 
 /* Contacts that move edges out of the triangles that they cross. */
-void sbri_self_crossings_add(const sbri_self_looking *query);
+void sbri_self_crossings_add(const sbri_self_search *query);
 
 #endif

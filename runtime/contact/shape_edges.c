@@ -4,10 +4,10 @@
  * exit. */
 #include "contact/shape_edges.h"
 
-#include "collide/colliders.h"
-#include "collide/ridge_query.h"
 #include "contact/sample_motion.h"
 #include "model/reach.h"
+#include "shapes/colliders.h"
+#include "shapes/ridge_query.h"
 
 /* Tolerance of the test whether an axis lies between the normals, as a sine. */
 static const float NORMAL_TOLERANCE = 0.1f;

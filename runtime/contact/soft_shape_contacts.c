@@ -1,9 +1,9 @@
 #include "contact/soft_shape_contacts.h"
 
-#include "collide/colliders.h"
 #include "contact/sample_motion.h"
 #include "contact/shape_edges.h"
 #include "model/reach.h"
+#include "shapes/colliders.h"
 
 typedef sbri_shape_pair shape_pair;
 

@@ -3,8 +3,8 @@
 #ifndef SBRI_SOFT_SHAPE_CONTACTS_H
 #define SBRI_SOFT_SHAPE_CONTACTS_H
 
-#include "collide/colliders.h"
 #include "contact/contact.h"
+#include "shapes/colliders.h"
 
 /* A body and a shape that it may reach within the tick. */
 typedef struct sbri_shape_pair {

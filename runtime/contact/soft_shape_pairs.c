@@ -1,6 +1,6 @@
 /* Adds contacts of soft bodies with host shapes, for both kinds of queries. */
-#include "collide/external_body.h"
 #include "contact/soft_shape_contacts.h"
+#include "shapes/external_body.h"
 
 void sbri_shape_contact_add(const sbri_shape_pair *m, const sbri_sample *s, sbf_vec3 on_shape, sbf_vec3 n) {
   const sbri_island_tick *t = m->tick;

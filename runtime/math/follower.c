@@ -44,11 +44,11 @@ void sbri_position_follower_tick(sbri_position_follower *f, sbf_vec3 target, con
   f->followed = target;
 }
 
-void sbri_turn_follower_reset(sbri_turn_follower *f, sbf_quat at) {
-  *f = (sbri_turn_follower){at, {0, 0, 0}, at};
+void sbri_rotation_follower_reset(sbri_rotation_follower *f, sbf_quat at) {
+  *f = (sbri_rotation_follower){at, {0, 0, 0}, at};
 }
 
-void sbri_turn_follower_tick(sbri_turn_follower *f, sbf_quat target, const sbri_follower_step *s) {
+void sbri_rotation_follower_tick(sbri_rotation_follower *f, sbf_quat target, const sbri_follower_step *s) {
   if (s->h <= 0) return;
   sbf_quat moved = sbri_quat_multiply(target, sbri_quat_conjugate(f->followed));
   sbf_quat off = sbri_quat_multiply(f->value, sbri_quat_conjugate(f->followed));

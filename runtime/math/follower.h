@@ -28,12 +28,12 @@ typedef struct sbri_position_follower {
 void sbri_position_follower_reset(sbri_position_follower *f, sbf_vec3 at);
 void sbri_position_follower_tick(sbri_position_follower *f, sbf_vec3 target, const sbri_follower_step *step);
 
-typedef struct sbri_turn_follower {
+typedef struct sbri_rotation_follower {
   sbf_quat value;
   sbf_vec3 rate; /* rotation vector per second, in the axes of the rotations */
   sbf_quat followed;
-} sbri_turn_follower;
-void sbri_turn_follower_reset(sbri_turn_follower *f, sbf_quat at);
-void sbri_turn_follower_tick(sbri_turn_follower *f, sbf_quat target, const sbri_follower_step *step);
+} sbri_rotation_follower;
+void sbri_rotation_follower_reset(sbri_rotation_follower *f, sbf_quat at);
+void sbri_rotation_follower_tick(sbri_rotation_follower *f, sbf_quat target, const sbri_follower_step *step);
 
 #endif

@@ -26,7 +26,7 @@ static inline sbri_four sbri_four_scale(sbri_four a, float s) {
   return a * s;
 }
 /* y, z, x. */
-static inline sbri_four sbri_four_turn(sbri_four a) {
+static inline sbri_four sbri_four_yzx(sbri_four a) {
   return __builtin_shufflevector(a, a, 1, 2, 0, 3);
 }
 static inline float sbri_four_at(sbri_four a, int k) {
@@ -52,7 +52,7 @@ static inline sbri_four sbri_four_mul(sbri_four a, sbri_four b) {
 static inline sbri_four sbri_four_scale(sbri_four a, float s) {
   return (sbri_four){{a.at[0] * s, a.at[1] * s, a.at[2] * s, 0}};
 }
-static inline sbri_four sbri_four_turn(sbri_four a) {
+static inline sbri_four sbri_four_yzx(sbri_four a) {
   return (sbri_four){{a.at[1], a.at[2], a.at[0], 0}};
 }
 static inline float sbri_four_at(sbri_four a, int k) {

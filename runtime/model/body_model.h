@@ -51,7 +51,7 @@ typedef struct sbri_body_elements {
 /* Damping, and the angular frequencies that it follows. */
 typedef struct sbri_body_damping {
   float lowest_rad_s;     /* angular frequency of its lowest deformation mode, 1/s; 0: no resistance */
-  float sliding_rad_s;    /* damping rate while it slides (solvers/slide_damping.h); 0: none */
+  float sliding_rad_s;    /* damping rate while it slides (soft/solvers/slide_damping.h); 0: none */
   float stretching_rad_s; /* the same without bending, for sheets */
   float alpha_1_s;        /* mass-proportional damping including the damping ratio, 1/s */
   const float *alphas;    /* (free slots of the island) damping per point if a map scales it, alpha_1_s being
@@ -63,7 +63,7 @@ typedef struct sbri_body_damping {
 typedef struct sbri_body_contact {
   float friction, restitution;
   const float *frictions; /* (free slots of the island) friction per point if a map scales it; else NULL */
-  float rolling_fraction; /* see solvers/rolling.h */
+  float rolling_fraction; /* see soft/solvers/rolling.h */
   float margin_m;         /* collision margin of sheets and bare points, m */
   const sbri_sample *samples; /* (sample_count) NULL: its points are the contact points */
   uint32_t sample_count;
@@ -81,7 +81,7 @@ typedef struct sbri_body_contact {
 typedef struct sbri_body_self_contact {
   const uint32_t *faces;           /* (face_count x 3) slots; NULL: no self contact */
   uint32_t face_count, first_face; /* first in a character's scratch */
-  const uint32_t *sides;           /* (face_count x 3) as collide/sides.h has them */
+  const uint32_t *sides;           /* (face_count x 3) as shapes/sides.h has them */
   const uint32_t *ring_begins; /* (slots of the island + 1) begin in `ring` of each slot's edge neighbours */
   const uint32_t *ring;
   bool is_sheet;   /* the surface encloses no volume */
@@ -108,7 +108,7 @@ typedef struct sbri_body_volume {
   bool is_kept;
   const sbri_face_block *faces;           /* faces of the surface as slots; NULL: the surface is embedded */
   const uint32_t *begins;                 /* (blocks of its slots + 1) if it keeps its volume */
-  const sbri_carry_cell *cells;           /* faces, as `slots`, with their weights in each slot's gradient */
+  const sbri_volume_cell *cells;          /* faces, as `slots`, with their weights in each slot's gradient */
   const sbri_face_weight *pinned_weights; /* (pinned_weight_count) the same for pinned points */
   uint32_t pinned_weight_count;
   int32_t carrier; /* the rigid body that these, or the island, are pinned to; -1: none */

@@ -31,9 +31,9 @@ typedef struct sbri_link_flows {
 /* Eight tetrahedra. An island has blocks of three sorts, one after the other: full ones, of which no two
  * lanes share a free point; those that are left over, in full blocks again, which may share points; and the
  * same ones once more in blocks that share none and have inert lanes. Forces take the first two
- * (solvers/tetrahedron_forces.h), sweeps, which move points at once, the first and the last
- * (solvers/tetrahedron_sweep.h). Inert lanes have zeros, and all corners at a point that no other lane of the
- * block moves. */
+ * (soft/solvers/tetrahedron_forces.h), sweeps, which move points at once, the first and the last
+ * (soft/solvers/tetrahedron_sweep.h). Inert lanes have zeros, and all corners at a point that no other lane
+ * of the block moves. */
 typedef struct sbri_tetrahedron_block {
   uint32_t corners[4][SBRI_BLOCK];  /* slots */
   float stiffness[6][SBRI_BLOCK];   /* N/m: V mu g_i.g_j for ij = 11, 22, 33, 12, 23, 31, g_i the gradients of
@@ -43,7 +43,7 @@ typedef struct sbri_tetrahedron_block {
   float shear[SBRI_BLOCK];          /* Pa: mu / 6 */
 } sbri_tetrahedron_block;
 
-/* One point of each of eight shape matching regions (solvers/region_forces.h). Padding lanes name the
+/* One point of each of eight shape matching regions (soft/solvers/region_forces.h). Padding lanes name the
  * region's first point and contain zeros. */
 typedef struct sbri_region_member {
   uint32_t slots[SBRI_BLOCK];
@@ -72,7 +72,7 @@ typedef struct sbri_visit {
 } sbri_visit;
 
 /* Two triangles of a sheet at one edge, with bending stiffness about the rest angle
- * (solvers/surface_forces.h). */
+ * (soft/solvers/surface_forces.h). */
 typedef struct sbri_hinge {
   uint32_t slots[4];
   float stiffness, rest_angle; /* J/rad^2, rad */

@@ -7,7 +7,7 @@
 #include "mechanics/spring.h"
 #include "model/elements.h"
 
-/* Steps per control tick with attached masses (ragdoll/attached_bodies.c). */
+/* Steps per control tick with attached masses (coupling/ragdoll/attached_bodies.c). */
 enum { SBRI_ATTACHED_STEPS = 6 };
 /* Response of the points of an island on one rigid body to a change of its velocity in such a step
  * (prepare/attached_responses.c). */
@@ -31,7 +31,7 @@ typedef struct sbri_pin_of {
   uint32_t body, set;
 } sbri_pin_of;
 
-typedef struct sbri_scheme sbri_scheme; /* solvers/scheme.h */
+typedef struct sbri_scheme sbri_scheme; /* soft/solvers/scheme.h */
 
 /* Springs as each point sees them: for forces. */
 typedef struct sbri_island_cells {
@@ -127,7 +127,7 @@ typedef struct sbri_island_stepping {
   uint32_t substeps;                   /* requested substeps; 0: automatic */
   float step_error_m;                  /* error bound of integrators with error control, m */
   uint32_t min_substeps, max_substeps; /* bounds of their substeps per tick; 0: none */
-  bool is_routed;                      /* the router may replace the integrator (solvers/router.h) */
+  bool is_routed;                      /* the router may replace the integrator (soft/solvers/router.h) */
   bool lightly_damped; /* some body has a damping ratio too low for the damping of coarse steps */
 } sbri_island_stepping;
 
@@ -146,7 +146,7 @@ typedef struct sbri_island {
   sbri_island_pins pins;
   sbri_island_tetrahedra tetrahedra;
   sbri_island_regions regions;
-  const struct sbri_descent *descent; /* solvers/descent_table.h; NULL: another integrator */
+  const struct sbri_descent *descent; /* soft/solvers/descent_table.h; NULL: another integrator */
   sbri_island_stability stability;
   sbri_island_stepping stepping;
   bool splits; /* springs or tetrahedra may tear, and points split: masses are state */

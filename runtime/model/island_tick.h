@@ -59,7 +59,7 @@ typedef struct sbri_environment {
   const sbr_ground *ground;
   const sbri_load_now *loads; /* (load_count) of all bodies of the character */
   uint32_t load_count;
-  const struct sbri_collider_set *colliders; /* collide/colliders.h; NULL: there are none */
+  const struct sbri_collider_set *colliders; /* shapes/colliders.h; NULL: there are none */
 } sbri_environment;
 
 /* Contacts of all bodies of the character; see sbri_body_contact. */
@@ -73,8 +73,7 @@ typedef struct sbri_tick_contacts {
   uint32_t *block_counts; /* (bodies of the model) */
   uint8_t *slots;         /* (slot_count / 8) 1: contact blocks read or move some of these slots */
   float *weights;         /* (slot_count) scratch: sums of weights of the contacts that move each point */
-  struct sbri_external_bodies
-      *external_bodies; /* (bodies of the model) collide/external_body.h; NULL: none */
+  struct sbri_external_bodies *external_bodies; /* (bodies of the model) shapes/external_body.h; NULL: none */
 } sbri_tick_contacts;
 
 /* Surfaces of all bodies of the character, scratch; see sbri_body_surface. */

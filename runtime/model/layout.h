@@ -1,5 +1,5 @@
-/* Where the parts of a character's state and scratch memory begin, in bytes (world/layout.c,
- * world/state.h). State comes first in each group. */
+/* Where the parts of a character's state and scratch memory begin, in bytes (state/layout.c,
+ * state/state.h). State comes first in each group. */
 #ifndef SBRI_LAYOUT_H
 #define SBRI_LAYOUT_H
 

@@ -7,9 +7,9 @@
 #define SBRI_RIGID_MODEL_H
 
 #include "base/memory.h"
-#include "collide/hull.h"
 #include "math/quat.h"
 #include "sbfmt/model.h"
+#include "shapes/hull.h"
 
 typedef struct sbri_rigid_body {
   const sbf_rigid_body *source;

@@ -17,6 +17,7 @@
 #ifndef SBRI_RUNTIME_MODEL_H
 #define SBRI_RUNTIME_MODEL_H
 
+#include "animation/skeleton/rig.h"
 #include "base/memory.h"
 #include "model/body_model.h"
 #include "model/island_model.h"
@@ -24,7 +25,6 @@
 #include "model/rigid_model.h"
 #include "sbfmt/mechanics.h"
 #include "sbrun/detail.h"
-#include "skeleton/rig.h"
 
 /* A skin vertex that is embedded in a tetrahedron that may tear: the corners are its four points, in order,
  * in the cells from `cell` on. If it is embedded in points of a network that may tear, `tetrahedron` is

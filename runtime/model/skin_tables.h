@@ -8,10 +8,10 @@
 #include "sbrun/sbrun.h"
 
 /* One embedding point of each of eight vertices. */
-typedef struct sbri_carry_cell {
+typedef struct sbri_volume_cell {
   uint32_t slots[SBRI_BLOCK]; /* in the whole character */
   float weights[SBRI_BLOCK];
-} sbri_carry_cell;
+} sbri_volume_cell;
 
 /* A slot's weight in a face. */
 typedef struct sbri_face_weight {
@@ -55,7 +55,7 @@ typedef struct sbri_skin {
   uint32_t vertex_count;
   const uint32_t *vertices;    /* (vertex_count) of a render level: vertex of the full mesh; NULL: all */
   const uint32_t *cell_begins; /* (blocks of vertices + 1) */
-  const sbri_carry_cell *cells;
+  const sbri_volume_cell *cells;
   uint32_t cell_count;
   /* For a skin that may tear, else none: bindings of vertices to tetrahedra, and the first cells, bindings
    * and polygons of the skin in a character's state. */

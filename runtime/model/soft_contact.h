@@ -32,8 +32,8 @@ typedef struct sbri_soft_contact {
   bool is_crossed;       /* self contact: the edges have passed through each other */
   bool is_single;        /* the sample is a single free point that no other contact moves */
   uint8_t external_body; /* 1-based index of the body's external body that receives the impulse
-                            (collide/external_body.h); 0: none */
-  /* Solver state (solvers/soft_contacts.c, contact/contact_blocks.c): */
+                            (shapes/external_body.h); 0: none */
+  /* Solver state (soft/solvers/soft_contacts.c, contact/contact_blocks.c): */
   float gap, target_speed; /* separation, m, and target normal velocity, m/s, at the beginning of a substep */
   float velocity_change;   /* normal velocity change by the contact, m/s */
   sbf_vec3 friction_impulse;      /* friction, tangential */

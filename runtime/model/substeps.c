@@ -9,9 +9,9 @@
 #include "model/runtime_model.h"
 
 /* Springs that rotate against each other under large strains change the highest frequency a little.
- * Tetrahedra are monitored during the tick (solvers/symplectic.h) and stiffen between two checks. Substep
- * counts that change from tick to tick also excite modes near the limit: with 1.04, an undamped cube that
- * fell reached three times its energy. */
+ * Tetrahedra are monitored during the tick (soft/solvers/symplectic.h) and stiffen between two checks.
+ * Substep counts that change from tick to tick also excite modes near the limit: with 1.04, an undamped cube
+ * that fell reached three times its energy. */
 static const double MARGIN = 1.1;
 
 /* Above the needs of any model, and far below overflow. */

@@ -1,5 +1,5 @@
 /* Response of a soft body to a velocity change of the rigid body that it is attached to: the change of its
- * points' velocities at the end of the step, for the implicit coupling (ragdoll/attached_bodies.c).
+ * points' velocities at the end of the step, for the implicit coupling (coupling/ragdoll/attached_bodies.c).
  *
  * If its frame's velocity changes by u, a mode of angular frequency w has followed by the fraction 1 - cos(w
  * h) of u after a step h: little for a slow mode, an arbitrary amount for one that has oscillated several
@@ -18,7 +18,7 @@
 
 #include "mechanics/network.h"
 #include "prepare/island_maker.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 /* Squared w h from which on a mode follows completely, and the tolerance of that. */
 static const double ALONG = 3.2, BEHIND = 1e-3;
@@ -162,8 +162,8 @@ bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network
   size_t size = 3 * (size_t)points;
   float *masses = sbri_scratch(m, points, sizeof *masses);
   double *lags = sbri_scratch(m, 3 * size, sizeof *lags);
-  sbri_attached_responses *answers = sbri_keep(m, 1, sizeof *answers);
-  float *fractions = sbri_keep(m, (size_t)SBRI_ANSWER * island->free_count, sizeof *fractions);
+  sbri_attached_responses *answers = sbri_model_allocate(m, 1, sizeof *answers);
+  float *fractions = sbri_model_allocate(m, (size_t)SBRI_ANSWER * island->free_count, sizeof *fractions);
   if (!masses || !lags || !answers || !fractions) return false;
   double h = (double)m->model->asset->environment.control_tick / SBRI_ATTACHED_STEPS,
          fastest = FASTEST_MARGIN * h * h * island->stability.fastest_rad_s * island->stability.fastest_rad_s;

@@ -1,7 +1,7 @@
 /* The detail levels of a model except its first: coarser levels, jiggle, bones only, offscreen. */
 #include "base/diagnostic.h"
 #include "prepare/prepare.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 /* Error of a level without a stated one, as a fraction of the body's size: about that of an oscillating body.
  */

@@ -4,7 +4,7 @@
 
 #include "math/trig.h"
 #include "prepare/hinges.h"
-#include "solvers/surface_forces.h"
+#include "soft/solvers/surface_forces.h"
 
 /* Fraction of its rest volume down to which a gas's stiffness, which grows with the square of the
  * compression, is bounded in advance. Below it is updated at run time (sbri_update_gas_stiffness). */

@@ -1,7 +1,7 @@
 #include "prepare/hinges.h"
 
 #include "mechanics/level_points.h"
-#include "solvers/surface_forces.h"
+#include "soft/solvers/surface_forces.h"
 
 typedef struct edge {
   uint32_t low, high; /* source points */

@@ -5,7 +5,7 @@
 #include "mechanics/level_points.h"
 #include "prepare/island_maker.h"
 #include "prepare/pins.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 /* Mass of a free point that has none, as a fraction of the mean: without mass its acceleration would be
  * unbounded. */
@@ -139,7 +139,7 @@ static bool make_slots(sbri_island_maker *m) {
   uint32_t next = 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
-    uint32_t *slots = sbri_keep(m, body->level->positions.count, sizeof *slots);
+    uint32_t *slots = sbri_model_allocate(m, body->level->positions.count, sizeof *slots);
     if (!slots || !append_free(m, b, next, slots)) return false;
     body->slots.from_point = slots;
     next = body->slots.end;
@@ -157,12 +157,12 @@ static bool make_slots(sbri_island_maker *m) {
 
 static bool fill_slots(sbri_island_maker *m) {
   sbri_island *island = m->island;
-  sbri_point *rest = sbri_keep(m, island->slot_count, sizeof *rest);
-  float *masses = sbri_keep(m, island->free_count, sizeof *masses);
-  float *inverse_masses = sbri_keep(m, island->free_count, sizeof *inverse_masses);
-  float *gravity_scales = sbri_keep(m, island->free_count, sizeof *gravity_scales);
+  sbri_point *rest = sbri_model_allocate(m, island->slot_count, sizeof *rest);
+  float *masses = sbri_model_allocate(m, island->free_count, sizeof *masses);
+  float *inverse_masses = sbri_model_allocate(m, island->free_count, sizeof *inverse_masses);
+  float *gravity_scales = sbri_model_allocate(m, island->free_count, sizeof *gravity_scales);
   uint32_t pinned_count = island->slot_count - island->free_count;
-  uint32_t *frames = sbri_keep(m, pinned_count, sizeof *frames);
+  uint32_t *frames = sbri_model_allocate(m, pinned_count, sizeof *frames);
   if (!rest || !masses || !inverse_masses || !gravity_scales || !frames) return false;
   for (uint32_t i = 0; i < pinned_count; i++) frames[i] = sbri_root_frame(m->model);
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -197,7 +197,7 @@ static bool fill_slots(sbri_island_maker *m) {
 static bool list_pins(sbri_island_maker *m) {
   sbri_island *island = m->island;
   uint32_t pinned_count = island->slot_count - island->free_count;
-  sbri_pin_of *pins = sbri_keep(m, pinned_count, sizeof *pins);
+  sbri_pin_of *pins = sbri_model_allocate(m, pinned_count, sizeof *pins);
   if (!pins) return false;
   for (uint32_t i = 0; i < pinned_count; i++) pins[i] = (sbri_pin_of){UINT32_MAX, UINT32_MAX};
   for (uint32_t b = 0; b < island->body_count; b++) {

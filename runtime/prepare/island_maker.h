@@ -31,7 +31,7 @@ typedef struct sbri_island_maker {
 static inline void *sbri_scratch(sbri_island_maker *m, size_t count, size_t size) {
   return sbfi_arena_allocate(&m->scratch, count ? count : 1, size);
 }
-static inline void *sbri_keep(sbri_island_maker *m, size_t count, size_t size) {
+static inline void *sbri_model_allocate(sbri_island_maker *m, size_t count, size_t size) {
   return sbfi_arena_allocate(&m->model->arena, count ? count : 1, size);
 }
 static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t index) {

@@ -138,7 +138,7 @@ static bool add_body(sbri_island_maker *m, sbri_body *body, tables *to) {
 }
 
 static const void *keep(sbri_island_maker *m, const sbfi_array *from, size_t size) {
-  void *kept = sbri_keep(m, from->count, size);
+  void *kept = sbri_model_allocate(m, from->count, size);
   return kept && from->count ? memcpy(kept, from->at, from->count * size) : kept;
 }
 

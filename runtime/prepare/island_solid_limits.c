@@ -52,8 +52,9 @@ bool sbri_solid_limits_make(sbri_island_maker *m) {
     bounded = bounded || (body->elements.tetrahedron_count && is_bounded(&body->source->attributes));
   }
   if (!bounded) return true;
-  sbri_solid_limits *limits = sbri_keep(m, island->tetrahedra.dense_count, sizeof *limits);
-  uint32_t *elements = sbri_keep(m, (size_t)island->tetrahedra.dense_count * SBRI_BLOCK, sizeof *elements);
+  sbri_solid_limits *limits = sbri_model_allocate(m, island->tetrahedra.dense_count, sizeof *limits);
+  uint32_t *elements =
+      sbri_model_allocate(m, (size_t)island->tetrahedra.dense_count * SBRI_BLOCK, sizeof *elements);
   solid_factors *factors = sbri_scratch(m, island->body_count, sizeof *factors);
   if (!limits || !elements || !factors || !find_factors(m, factors)) return false;
   for (uint32_t i = 0; i < island->tetrahedra.dense_count * SBRI_BLOCK; i++) {

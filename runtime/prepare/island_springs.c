@@ -5,8 +5,8 @@
 #include "mechanics/level_points.h"
 #include "prepare/hinges.h"
 #include "prepare/softening.h"
-#include "solvers/rolling.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/rolling.h"
+#include "soft/solvers/scheme.h"
 
 static float rest_distance(const sbri_island *island, uint32_t a, uint32_t b) {
   const sbri_point *p = &island->rest[a], *q = &island->rest[b];
@@ -145,7 +145,7 @@ static bool list_springs(sbri_island_maker *m) {
     if (here && sbri_cross_springs_act(m->model, cross) && !add_cross_springs(m, cross)) return false;
   }
   island->springs.count = (uint32_t)m->springs.count;
-  sbfi_spring *springs = sbri_keep(m, island->springs.count, sizeof *springs);
+  sbfi_spring *springs = sbri_model_allocate(m, island->springs.count, sizeof *springs);
   if (!springs) return false;
   if (island->springs.count) memcpy(springs, m->springs.at, island->springs.count * sizeof *springs);
   island->springs.at = m->listed = springs;
@@ -211,8 +211,8 @@ static bool make_cells(sbri_island_maker *m) {
   /* Reactions on pinned points are needed only with rigid bodies. */
   island->cells.slot_count = m->model->rigid.body_count ? island->slot_count : island->free_count;
   uint32_t block_count = island->cells.slot_count / SBRI_BLOCK;
-  uint32_t *begins = sbri_keep(m, (size_t)block_count + 1, sizeof *begins);
-  uint32_t *ends = sbri_keep(m, block_count, sizeof *ends);
+  uint32_t *begins = sbri_model_allocate(m, (size_t)block_count + 1, sizeof *begins);
+  uint32_t *ends = sbri_model_allocate(m, block_count, sizeof *ends);
   uint32_t *used = sbri_scratch(m, island->slot_count, sizeof *used);
   if (!begins || !ends || !used) return false;
   bool damped = false, slack = false; /* kernels check for slack only if there is damping */
@@ -231,10 +231,10 @@ static bool make_cells(sbri_island_maker *m) {
   uint32_t cell_count = begins[block_count];
   size_t lanes = (size_t)cell_count * SBRI_BLOCK;
   bool flows = island->links.flows != NULL;
-  const cell_tables t = {.cells = sbri_keep(m, cell_count, sizeof *t.cells),
-      .damping = damped ? sbri_keep(m, lanes, sizeof *t.damping) : NULL,
-      .slack = slack ? sbri_keep(m, lanes, sizeof *t.slack) : NULL,
-      .links = flows ? sbri_keep(m, lanes, sizeof *t.links) : NULL};
+  const cell_tables t = {.cells = sbri_model_allocate(m, cell_count, sizeof *t.cells),
+      .damping = damped ? sbri_model_allocate(m, lanes, sizeof *t.damping) : NULL,
+      .slack = slack ? sbri_model_allocate(m, lanes, sizeof *t.slack) : NULL,
+      .links = flows ? sbri_model_allocate(m, lanes, sizeof *t.links) : NULL};
   if (!t.cells || (damped && !t.damping) || (slack && !t.slack) || (flows && !t.links)) return false;
   for (uint32_t block = 0; block < block_count; block++)
     for (uint32_t c = begins[block]; c < begins[block + 1]; c++)
@@ -356,7 +356,7 @@ static bool find_alphas(sbri_island_maker *m) {
     const float *factors = NULL;
     if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_MASS_DAMPING, &factors)) return false;
     if (!factors || !(stated > 0)) continue;
-    float *alphas = sbri_keep(m, free_count, sizeof *alphas), max = 0;
+    float *alphas = sbri_model_allocate(m, free_count, sizeof *alphas), max = 0;
     if (!alphas) return false;
     for (uint32_t slot = 0; slot < free_count; slot++) alphas[slot] = body->damping.alpha_1_s;
     for (uint32_t i = 0; i < body->level->positions.count; i++) {
@@ -378,7 +378,7 @@ static bool find_frictions(sbri_island_maker *m) {
     const float *factors = NULL;
     if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_FRICTION, &factors)) return false;
     if (!factors) continue;
-    float *frictions = sbri_keep(m, free_count, sizeof *frictions);
+    float *frictions = sbri_model_allocate(m, free_count, sizeof *frictions);
     if (!frictions) return false;
     for (uint32_t slot = 0; slot < free_count; slot++) frictions[slot] = body->contact.friction;
     for (uint32_t i = 0; i < body->level->positions.count; i++)

@@ -14,7 +14,8 @@ bool sbri_tetrahedra_list(sbri_island_maker *m) {
     body->elements.first_tetrahedron = m->island->tetrahedra.count;
     if (!acts(body)) continue;
     uint32_t count = body->level->lattice.tetrahedra.count;
-    float *moduli = sbri_keep(m, count, sizeof *moduli), *ratios = sbri_keep(m, count, sizeof *ratios);
+    float *moduli = sbri_model_allocate(m, count, sizeof *moduli),
+          *ratios = sbri_model_allocate(m, count, sizeof *ratios);
     float *factors = sbri_scratch(m, body->level->positions.count, sizeof *factors);
     if (!moduli || !ratios || !factors) return false;
     sbf_level_moduli(body->source, body->level, factors, moduli);
@@ -256,15 +257,15 @@ bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *networ
   packing p = {.island = island, .corners = network->tetrahedra};
   if (!pack(m, &p)) return false;
   size_t count = island->tetrahedra.block_count;
-  sbri_tetrahedron_block *blocks = sbri_keep(m, count, sizeof *blocks);
-  uint32_t *lanes = sbri_keep(m, 2 * (size_t)island->tetrahedra.count, sizeof *lanes);
+  sbri_tetrahedron_block *blocks = sbri_model_allocate(m, count, sizeof *blocks);
+  uint32_t *lanes = sbri_model_allocate(m, 2 * (size_t)island->tetrahedra.count, sizeof *lanes);
   const float **factors = sbri_scratch(m, island->body_count, sizeof *factors);
   if (!blocks || !lanes || !factors) return false;
   for (uint32_t b = 0; b < island->body_count; b++)
     if (!sbri_factors_find(m, sbri_maker_body(m, b), SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, &factors[b]))
       return false;
   bool damped = find_damping(m, factors);
-  float *damping = damped ? sbri_keep(m, count * SBRI_BLOCK, sizeof *damping) : NULL;
+  float *damping = damped ? sbri_model_allocate(m, count * SBRI_BLOCK, sizeof *damping) : NULL;
   if (damped && !damping) return false;
   fill(m, &p, blocks, damping, factors, lanes);
   float side = mean_edge(island, network->tetrahedra);

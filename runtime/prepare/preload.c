@@ -5,7 +5,7 @@
  * positions, so the authored shape is at rest. (This is the inverse of a static solve, exact to first order,
  * the problem of Twigg and Kacic-Alesic, Optimization for Sag-Free Simulations, 2011.) */
 #include "prepare/island_maker.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 static const double TOLERANCE = 1e-4, ENOUGH = 1e-2;
 

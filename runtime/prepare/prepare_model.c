@@ -5,10 +5,10 @@
 #include <float.h>
 #include <string.h>
 
+#include "animation/skeleton/rig_make.h"
 #include "base/diagnostic.h"
-#include "skeleton/rig_make.h"
 #include "skin/skin.h"
-#include "solvers/router.h"
+#include "soft/solvers/router.h"
 
 /* Default error of a step of schemes with error control: a tenth of a millimetre. */
 static const float STEP_ERROR_M = 1e-4f;

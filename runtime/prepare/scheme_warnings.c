@@ -3,7 +3,7 @@
  * tests/runtime/test_scheme_bias.c checks. */
 #include "base/diagnostic.h"
 #include "prepare/prepare.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 static const double WARNED_BIAS = 0.1;
 

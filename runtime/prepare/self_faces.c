@@ -2,8 +2,8 @@
  * connected components. */
 #include <string.h>
 
-#include "collide/sides.h"
 #include "prepare/prepare.h"
+#include "shapes/sides.h"
 
 /* Slot of each vertex; false where some vertex is no point of the level. */
 static bool find_slots(const sbri_island *island, const sbri_body *body, uint32_t *slots) {

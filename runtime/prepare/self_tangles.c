@@ -1,8 +1,8 @@
 /* Whether a surface intersects itself at rest. Its intersections are then not resolved. */
-#include "collide/bounds_tree.h"
-#include "collide/sides.h"
-#include "collide/triangle.h"
 #include "prepare/prepare.h"
+#include "shapes/bounds_tree.h"
+#include "shapes/sides.h"
+#include "shapes/triangle.h"
 
 /* Fractions of an edge and of a triangle: smaller intersections at rest count as contact. */
 static const float WITHIN = 1e-3f;

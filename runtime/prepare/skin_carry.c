@@ -155,14 +155,14 @@ static bool fill_cells(carry *c, uint32_t *counts) {
     begins[block + 1] = begins[block] + max;
   }
   size_t cell_count = begins[block_count];
-  sbri_carry_cell *cells = sbfi_arena_allocate(&c->model->arena, cell_count ? cell_count : 1, sizeof *cells);
+  sbri_volume_cell *cells = sbfi_arena_allocate(&c->model->arena, cell_count ? cell_count : 1, sizeof *cells);
   uint32_t *used = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *used);
   uint32_t *indices = sbfi_arena_allocate(&c->scratch, c->carriers.count + 1, sizeof *indices);
   if (!cells || !used || !indices) return false;
   for (size_t i = 0; i < c->carriers.count; i++) {
     uint32_t vertex = carriers[i].vertex;
     indices[i] = begins[vertex / SBRI_BLOCK] + used[vertex]++;
-    sbri_carry_cell *cell = &cells[indices[i]];
+    sbri_volume_cell *cell = &cells[indices[i]];
     float sum = sums[vertex];
     cell->slots[vertex % SBRI_BLOCK] = carriers[i].slot;
     cell->weights[vertex % SBRI_BLOCK] =

@@ -4,7 +4,7 @@
 
 #include "mechanics/neo_hookean.h"
 #include "mechanics/network.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 enum { POWER_ITERATIONS = 40, MAX_ROUNDS = 8 };
 

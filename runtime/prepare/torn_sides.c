@@ -6,7 +6,7 @@
 #include "prepare/prepare.h"
 
 /* The points with at least a twentieth of the vertex's weight, as slots of the character, by decreasing
- * weight. None for a vertex that follows something else, or one side of a tear (tear/torn_network.c). */
+ * weight. None for a vertex that follows something else, or one side of a tear (soft/tear/torn_network.c). */
 typedef struct carriers {
   uint32_t slots[4], count;
 } carriers;

@@ -1,4 +1,5 @@
-/* The faces that contribute to each slot's entry in the gradient of a body's volume: solvers/volume_keep.h.
+/* The faces that contribute to each slot's entry in the gradient of a body's volume:
+ * soft/solvers/volume_keep.h.
  */
 #include <string.h>
 
@@ -44,13 +45,13 @@ static bool fill_table(
     begins[block + 1] = begins[block] + max;
   }
   uint32_t cell_count = begins[block_count];
-  sbri_carry_cell *cells = sbfi_arena_allocate(&model->arena, cell_count ? cell_count : 1, sizeof *cells);
+  sbri_volume_cell *cells = sbfi_arena_allocate(&model->arena, cell_count ? cell_count : 1, sizeof *cells);
   if (!cells) return false;
   memset(used, 0, (size_t)block_count * SBRI_BLOCK * sizeof *used);
   for (size_t i = 0; i < count; i++) {
     if (face_weights[i].slot < begin || face_weights[i].slot >= body->slots.end) continue;
     uint32_t slot = face_weights[i].slot - begin, lane = slot % SBRI_BLOCK;
-    sbri_carry_cell *cell = &cells[begins[slot / SBRI_BLOCK] + used[slot]++];
+    sbri_volume_cell *cell = &cells[begins[slot / SBRI_BLOCK] + used[slot]++];
     cell->slots[lane] = face_weights[i].face;
     cell->weights[lane] = face_weights[i].weight;
   }

@@ -106,7 +106,7 @@ static void move_ball(sbri_rigid_solving *work, const sbri_rigid_model *model, s
   sbf_vec3 previous, now;
   find_relative_changes(&work->system, e, &previous, &now);
   sbf_vec3 relative = {now.x - (float)initial[0], now.y - (float)initial[1], now.z - (float)initial[2]};
-  float reach = sbri_turn_reach(sbri_length(relative), step_s);
+  float reach = sbri_max_rotation_change(sbri_length(relative), step_s);
   for (uint32_t r = 0; r < e->row_count; r++) {
     sbri_row *row = &e->rows[r];
     if (row->clearance > 0 && row->clearance <= reach) activate_limit(work, model, e, row, previous, step_s);

@@ -69,8 +69,8 @@ static float reach_in_step(
     const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *e, float step_s) {
   if (!e->ball) return 0;
   const sbri_rigid_joint *joint = &model->joints[e->joint];
-  return sbri_turn_reach(sbri_length(sbri_sub(sbri_side_motion(work, model, joint, SBRI_B)->turn,
-                             sbri_side_motion(work, model, joint, SBRI_A)->turn)),
+  return sbri_max_rotation_change(sbri_length(sbri_sub(sbri_side_motion(work, model, joint, SBRI_B)->turn,
+                                      sbri_side_motion(work, model, joint, SBRI_A)->turn)),
       step_s);
 }
 

@@ -63,7 +63,7 @@ float sbri_joint_locked_coordinate(const sbri_joint_frames *p, sbf_joint_axis ax
 }
 
 float sbri_joint_coordinate(const sbri_rigid_joint *joint, sbri_joint_frames *p, sbf_joint_axis axis) {
-  if (sbri_axis_turns(axis)) find_angles(p);
+  if (sbri_axis_is_angular(axis)) find_angles(p);
   switch (axis) {
   case SBF_JOINT_AXIS_LINEAR_X:
   case SBF_JOINT_AXIS_LINEAR_Y:

@@ -3,7 +3,7 @@
 #ifndef SBRI_JOINT_FRAMES_H
 #define SBRI_JOINT_FRAMES_H
 
-#include "ik/joint_limit.h"
+#include "animation/ik/joint_limit.h"
 #include "model/rigid_model.h"
 #include "sbrun/sbrun.h"
 
@@ -40,7 +40,7 @@ float sbri_joint_locked_coordinate(const sbri_joint_frames *joint_frames, sbf_jo
 void sbri_joint_compute_gradient(const sbri_rigid_joint *joint, sbri_joint_frames *joint_frames,
     sbf_joint_axis axis, float rates[SBRI_SIDES][6]);
 
-static inline bool sbri_axis_turns(sbf_joint_axis axis) {
+static inline bool sbri_axis_is_angular(sbf_joint_axis axis) {
   return axis == SBF_JOINT_AXIS_TWIST || axis == SBF_JOINT_AXIS_SWING || axis == SBF_JOINT_AXIS_SWING_Y ||
          axis == SBF_JOINT_AXIS_SWING_Z;
 }

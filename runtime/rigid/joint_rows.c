@@ -91,7 +91,7 @@ static float min_distance_of(const sbri_row *row, const sbri_joint_frames *joint
 static bool is_clear(const row_maker *m, sbri_row *row) {
   if (!m->edge->ball) return false;
   float clear = min_distance_of(row, m->frames);
-  if (!(clear > sbri_turn_reach(m->turn_rad_s, m->step_s))) return false;
+  if (!(clear > sbri_max_rotation_change(m->turn_rad_s, m->step_s))) return false;
   row->clearance = clear, row->position = row->upper - clear;
   row->active = false;
   return true;

@@ -11,7 +11,7 @@
 
 /* Clamps a rate: of a length, or of an angle. */
 static inline float sbri_clamped_rate(sbf_joint_axis axis, float rate, float max_m_s, float max_rad_s) {
-  float max = sbri_axis_turns(axis) ? max_rad_s : max_m_s;
+  float max = sbri_axis_is_angular(axis) ? max_rad_s : max_m_s;
   return sbri_clamp(rate, -max, max);
 }
 
@@ -26,7 +26,7 @@ void sbri_limit_choose_side(sbri_row *row, float speed, float step_s);
 bool sbri_limit_acts(const sbri_row *row, float speed, float step_s);
 /* Maximum change of swing and twist in a step at this relative angular speed; valid within the range of
  * sbri_row.clear. */
-float sbri_turn_reach(float turn_rad_s, float step_s);
+float sbri_max_rotation_change(float turn_rad_s, float step_s);
 /* Initialises a limit's row: its Jacobian, its side and its compliance. */
 void sbri_limit_ready(const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *edge,
     sbri_joint_frames *joint_frames, sbri_row *row, float step_s);

@@ -38,7 +38,7 @@ void sbri_limit_choose_side(sbri_row *row, float speed, float step_s) {
   row->sign = low ? 1 : -1;
   row->bound = low ? row->lower : row->upper;
   if (row->kind != SBRI_ROW_LIMIT) return;
-  float max = sbri_axis_turns((sbf_joint_axis)row->axis) ? SBRI_CORRECTION_RAD_S : SBRI_CORRECTION_M_S;
+  float max = sbri_axis_is_angular((sbf_joint_axis)row->axis) ? SBRI_CORRECTION_RAD_S : SBRI_CORRECTION_M_S;
   float back = (row->bound - row->position) / step_s;
   row->target = low ? (back > max ? max : back) : (back < -max ? -max : back);
   row->end = row->position + step_s * row->target;
@@ -50,7 +50,7 @@ bool sbri_limit_acts(const sbri_row *row, float speed, float step_s) {
   return pushes && (row->kind == SBRI_ROW_LIMIT || sign * (row->bound - row->position - step_s * speed) > 0);
 }
 
-float sbri_turn_reach(float turn_rad_s, float step_s) {
+float sbri_max_rotation_change(float turn_rad_s, float step_s) {
   return REACH * step_s * turn_rad_s + REACH_MIN;
 }
 

@@ -8,8 +8,8 @@
  * step before (Cundall and Strack, A discrete numerical model for granular assemblies, 1979), cut at
  * Coulomb's bound. A body at rest is therefore held by the same forces in every step, even where it is
  * jammed, and rounding does not make it slide. */
-#include "collide/ground.h"
 #include "rigid/rigid_work.h"
+#include "shapes/ground.h"
 
 /* Contact stiffness relative to the body's own inertia: normal and tangential. */
 static const float FIRM = 300, FIRM_ACROSS = 30;
@@ -69,7 +69,7 @@ static void list_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32
 
 void sbri_rigid_contacts_find(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   work->rigid_contact_count = 0;
-  for (uint32_t b = 0; b < t->model->body_count; b++) sbri_touching_begin(&t->touching[b]);
+  for (uint32_t b = 0; b < t->model->body_count; b++) sbri_contact_reports_begin(&t->touching[b]);
   for (uint32_t i = 0; i < work->system.node_count; i++)
     list_body(t, work, work->system.nodes[i].body, (int32_t)i);
 }
@@ -345,7 +345,7 @@ float sbri_rigid_contacts_error(const sbri_rigid_solving *work) {
   return energy;
 }
 
-void sbri_rigid_contacts_keep_solution(sbri_rigid_solving *work) {
+void sbri_rigid_contacts_store_solution(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     if (!contact->active && is_idle(contact, contact->last_change)) continue;
@@ -404,10 +404,10 @@ void sbri_rigid_contacts_report(const sbri_rigid_tick *t, sbri_rigid_solving *wo
     contact->friction_n = sbri_scale(tangential, normal > 0 ? 1 / work->kick_s : 0);
     if (!(normal > 0)) continue;
     sbf_vec3 position = sbri_add(t->bodies[contact->body].pose.position, contact->arm);
-    sbri_touching_one *one = sbri_touching_add(&t->touching[contact->body], contact->collider, position,
-        contact->normal, normal, contact->closing_speed);
+    sbri_contact_report *one = sbri_contact_reports_add(&t->touching[contact->body], contact->collider,
+        position, contact->normal, normal, contact->closing_speed);
     sbf_vec3 push = sbri_add(sbri_add_scaled(tangential, contact->normal, normal), contact->extra_impulse);
-    if (one) sbri_touching_add_impulse(one, position, push);
+    if (one) sbri_contact_report_add_impulse(one, position, push);
   }
 }
 

@@ -1,7 +1,7 @@
 /* The host's bodies in the step's system.
  *
  * A contact with one couples two bodies; all other contacts act on one. Each hull has its own copy of a
- * host's body (collide/external_body.h), so the copy is a leaf of the system: it is eliminated exactly before
+ * host's body (shapes/external_body.h), so the copy is a leaf of the system: it is eliminated exactly before
  * the hull's body, and its change of velocity follows from that body's. The unknowns are y with velocities =
  * `roots` y, where `roots` is the square root of the inverse mass matrix. So y has mass 1 even where the body
  * cannot move in some direction.
@@ -28,7 +28,7 @@ uint32_t sbri_rigid_external_body_of(const sbri_rigid_tick *t, sbri_rigid_solvin
          (work->external_bodies[i - 1].node != node || work->external_bodies[i - 1].is.leader != number))
     i--;
   if (i > 0 || work->external_body_count == work->external_body_capacity) return i;
-  const sbri_touching *before = &t->touching[body]; /* not yet reported in this tick */
+  const sbri_contact_reports *before = &t->touching[body]; /* not yet reported in this tick */
   sbri_external_body_maker maker = {
       t->colliders, t->origin, t->scale, t->tick_s, before->now, before->before_count};
   sbri_rigid_external_body *g = &work->external_bodies[work->external_body_count++];

@@ -2,8 +2,8 @@
 #ifndef SBRI_RIGID_EXTERNAL_BODIES_H
 #define SBRI_RIGID_EXTERNAL_BODIES_H
 
-#include "collide/external_body.h"
 #include "rigid/rigid_state.h"
+#include "shapes/external_body.h"
 
 struct sbri_rigid_solving;
 

@@ -82,7 +82,7 @@ void sbri_rigid_iterate(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
     sbri_joint_rows_move(work, t->model, step_s);
     bool agree = contacts_agree(t, work), all = agree && sbri_joint_rows_agree(work);
     if (work->external_body_count && pass + 1 == MAX_PASSES && !all) {
-      sbri_rigid_contacts_keep_solution(work); /* external bodies must get the impulses that the hulls get */
+      sbri_rigid_contacts_store_solution(work); /* external bodies must get the impulses that the hulls get */
       return;
     }
     float fraction = pass > 0 && !all ? sbri_rigid_search(t, work, step_s) : 1;

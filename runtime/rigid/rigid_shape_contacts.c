@@ -3,9 +3,9 @@
  *
  * A body that moves by more than half its size in the tick could pass through a thin shape unnoticed. If the
  * path of its centre enters a shape, the plane at that point becomes a contact. */
-#include "collide/colliders.h"
-#include "collide/hull_pair.h"
 #include "rigid/rigid_work.h"
+#include "shapes/colliders.h"
+#include "shapes/hull_pair.h"
 
 /* Maximum number of shape contacts of a body, within the capacity for all. */
 enum { MAX_TRIANGLES = 64 };

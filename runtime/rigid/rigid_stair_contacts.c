@@ -3,9 +3,9 @@
  * Stairs are the union of one quadrant per step: everything below its tread and behind its riser. A hull
  * collides with each quadrant near it as with any other hull (rigid_shape_contacts.c), so it rests across
  * nosings and leans on risers. A quadrant has one edge and no bottom, so nothing else can catch a hull. */
-#include "collide/ground.h"
-#include "collide/hull_pair.h"
 #include "rigid/rigid_work.h"
+#include "shapes/ground.h"
+#include "shapes/hull_pair.h"
 
 /* Contact margin: a fraction of the body's size, on top of its displacement in the tick. */
 static const float NEAR_FRACTION = 0.02f;

@@ -6,9 +6,9 @@
 #ifndef SBRI_RIGID_STATE_H
 #define SBRI_RIGID_STATE_H
 
-#include "collide/touching.h"
 #include "rigid/rigid_system.h"
 #include "sbrun/rigid.h"
+#include "shapes/contact_reports.h"
 
 typedef struct sbri_rigid_body_state {
   sbr_transform pose;
@@ -96,14 +96,14 @@ typedef struct sbri_stored_contact {
 
 struct sbri_rigid_tick;
 
-/* Mass that attached soft bodies add to a body in a step (ragdoll/attached_bodies.c). */
-typedef struct sbri_rigid_burden {
+/* Mass that attached soft bodies add to a body in a step (coupling/ragdoll/attached_bodies.c). */
+typedef struct sbri_attached_load {
   bool is_attached;
   double mass[6][6];   /* about the body's centre, in character space */
   float needed_steps;  /* steps per tick without attachment */
   sbr_transform begin; /* state of the body at the beginning of the step: */
   sbf_vec3 velocity, angular_momentum;
-} sbri_rigid_burden;
+} sbri_attached_load;
 
 /* External forces on the bodies. `act` is called before each step over a fraction of the tick, with the
  * seconds over which gravity acts in it; it adds impulses to linear and angular velocities
@@ -114,9 +114,9 @@ typedef struct sbri_rigid_pull {
   void (*act)(void *user, const struct sbri_rigid_tick *tick, float from, float to, float weight_s);
   void (*acted)(void *user, const struct sbri_rigid_tick *tick, float step_s, float weight_s);
   void *user;
-  const float *squares;             /* (body_count) rad^2/s^2, that it makes a body swing by at most */
-  const sbri_rigid_burden *burdens; /* (body_count); NULL: nobody bears anything */
-  uint32_t steps;                   /* minimum steps per tick */
+  const float *squares;              /* (body_count) rad^2/s^2, that it makes a body swing by at most */
+  const sbri_attached_load *burdens; /* (body_count); NULL: nobody bears anything */
+  uint32_t steps;                    /* minimum steps per tick */
 } sbri_rigid_pull;
 
 /* Input of a tick of all rigid bodies of a character. */
@@ -129,16 +129,16 @@ typedef struct sbri_rigid_tick {
   const sbr_transform *targets; /* (body_count) where the animation has each at the end of the tick */
   sbr_transform anchor;
   const sbr_ground *ground;
-  const struct sbri_collider_set *colliders; /* collide/colliders.h; NULL: there are none */
+  const struct sbri_collider_set *colliders; /* shapes/colliders.h; NULL: there are none */
   sbr_double3 origin;                        /* m, world */
   float scale;
   sbf_vec3 gravity;
   float tick_s;
   uint32_t substeps;
   bool coarse; /* solve joints and contacts only as far as sbr_model_options.rigid_coarse allows */
-  sbri_touching *touching; /* (body_count) */
-  sbri_rigid_pull pull;    /* all 0: nothing does */
-  void *work;              /* work memory, sbri_rigid_work_size(model) bytes */
+  sbri_contact_reports *touching; /* (body_count) */
+  sbri_rigid_pull pull;           /* all 0: nothing does */
+  void *work;                     /* work memory, sbri_rigid_work_size(model) bytes */
 } sbri_rigid_tick;
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model);
@@ -154,7 +154,7 @@ void sbri_rigid_compute_moments(sbf_vec3 own, sbf_quat rotation, float to[3][3])
 
 /* Torque-free rotation: mean angular velocity over a step at constant angular momentum, and the final
  * orientation. */
-sbf_vec3 sbri_free_turn(
+sbf_vec3 sbri_torque_free_rotation(
     const sbri_rigid_body *body, sbf_quat rotation, sbf_vec3 angular_momentum, float step_s, sbf_quat *to);
 
 /* Angular velocity for an angular momentum. */

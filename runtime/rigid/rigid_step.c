@@ -13,9 +13,9 @@
 #include <string.h>
 
 #include "math/quat_log.h"
-#include "rigid/free_turn.h"
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
+#include "rigid/torque_free.h"
 
 enum { MAX_CORRECTIONS = 4, CONTACT_HALVINGS = 4 };
 /* Capacity of contacts with shapes, in addition to vertices on the ground. */
@@ -135,13 +135,13 @@ static void advance_all(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   const sbri_node *nodes = work->system.nodes;
   uint32_t count = work->system.node_count;
   for (uint32_t i = 0; i < count; i += SBRI_LANES) {
-    sbri_free_turning turning;
+    sbri_torque_free_lanes turning;
     for (uint32_t k = 0; k < SBRI_LANES; k++) { /* the last block repeats a body in unused lanes */
       uint32_t b = nodes[i + k < count ? i + k : count - 1].body;
-      sbri_free_turning_put(&turning, (int)k, &t->model->bodies[b], work->motions[b].from.rotation,
+      sbri_torque_free_lanes_set(&turning, (int)k, &t->model->bodies[b], work->motions[b].from.rotation,
           t->bodies[b].angular_momentum);
     }
-    sbri_free_turns(&turning, step_s);
+    sbri_torque_free_lanes_rotate(&turning, step_s);
     for (uint32_t k = 0; k < SBRI_LANES && i + k < count; k++) {
       uint32_t b = nodes[i + k].body;
       sbri_part_motion *m = &work->motions[b];

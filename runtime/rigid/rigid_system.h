@@ -90,7 +90,7 @@ typedef struct sbri_node {
   double known_impulse[6];   /* impulses that are known already: of saturated drives */
   float inertia[3][3];       /* in space */
   float mass_factor;         /* sbri_rigid_mass_factor */
-  const double (*burden)[6]; /* sbri_rigid_burden.mass; NULL: no mass is attached */
+  const double (*burden)[6]; /* sbri_attached_load.mass; NULL: no mass is attached */
   float
       max_swing_square; /* maximum squared angular frequency of the swing by its joints' springs, (rad/s)^2 */
   float inverse_mass[2]; /* 1 / mass, and the mean of 1 / moment of inertia */

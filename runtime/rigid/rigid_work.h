@@ -63,7 +63,7 @@ void sbri_rigid_begin(sbri_rigid_tick *tick, sbri_rigid_solving *work);
 void sbri_rigid_advance(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float from, float to);
 void sbri_rigid_end(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
-/* ---- rigid_pace.c ---- */
+/* ---- rigid_step_count.c ---- */
 
 /* Square of the maximum angular frequency of a body by the joints' forces, (rad/s)^2. */
 float sbri_rigid_swings(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
@@ -152,7 +152,7 @@ void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work);
  * energy, J, by which it would move each body alone; 0 if negligible. */
 float sbri_rigid_contacts_error(const sbri_rigid_solving *work);
 /* Keeps the impulses of the last iteration if iterations end before they are consistent. */
-void sbri_rigid_contacts_keep_solution(sbri_rigid_solving *work);
+void sbri_rigid_contacts_store_solution(sbri_rigid_solving *work);
 /* Updates active and sliding contacts after an iteration. */
 void sbri_rigid_contacts_check(sbri_rigid_solving *work);
 /* Updates the bounds of friction from the normal forces of the last iteration; returns whether that changes

@@ -16,7 +16,7 @@ static inline void sbri_lanes_compute_vertices(
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_wide3 sum = {sbri_wide_all(0), sbri_wide_all(0), sbri_wide_all(0)};
       for (uint32_t c = skin->cell_begins[block]; c < skin->cell_begins[block + 1]; c++) {
-        const sbri_carry_cell *cell = &skin->cells[c];
+        const sbri_volume_cell *cell = &skin->cells[c];
         sbri_wide3 p = sbri_wide_gather(points, cell->slots + lane);
         sbri_wide w = sbri_wide_load(cell->weights + lane);
         sum.x = sum.x + w * p.x;

@@ -10,8 +10,8 @@
 #include "mechanics/neo_hookean.h"
 #include "skin/skin.h"
 #include "soft/soft.h"
-#include "solvers/rigid_motion.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/rigid_motion.h"
+#include "soft/solvers/scheme.h"
 
 /* Fraction of its volume below which a body does not recover by itself. */
 static const double COLLAPSED_FRACTION = 0.1;

@@ -6,8 +6,8 @@
 
 #include "math/vec3.h"
 #include "soft/soft.h"
-#include "solvers/rigid_motion.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/rigid_motion.h"
+#include "soft/solvers/scheme.h"
 
 /* Driver velocities of a body over the tick, in blocks. Returns false if a driver moves by more than the size
  * of the body: the drivers have jumped. */

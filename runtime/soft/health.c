@@ -4,8 +4,8 @@
 #include "mechanics/solid_strain.h"
 #include "skin/skin.h"
 #include "soft/soft.h"
-#include "solvers/external_forces.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/external_forces.h"
+#include "soft/solvers/scheme.h"
 
 sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, uint32_t spring) {
   sbfi_spring s = island->springs.at[spring];

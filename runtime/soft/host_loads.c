@@ -1,7 +1,7 @@
 /* Prepares forces and holds of the host for a tick: sbrun/soft_body.h. */
 #include "math/vec3.h"
 #include "soft/soft.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 static const float TWO_PI = 6.2831853f, EARTH_M_S2 = 9.80665f;
 /* Default force limit of a hold, in multiples of the body's weight. */

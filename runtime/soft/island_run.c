@@ -5,11 +5,11 @@
 #include "math/vec3.h"
 #include "skin/skin.h"
 #include "soft/soft.h"
-#include "solvers/external_forces.h"
-#include "solvers/rolling.h"
-#include "solvers/router.h"
-#include "solvers/soft_contacts.h"
-#include "tear/tear.h"
+#include "soft/solvers/external_forces.h"
+#include "soft/solvers/rolling.h"
+#include "soft/solvers/router.h"
+#include "soft/solvers/soft_contacts.h"
+#include "soft/tear/tear.h"
 
 void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) {
   if (sbri_island_sleeps(world, c, index)) return;

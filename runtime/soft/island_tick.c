@@ -2,14 +2,14 @@
  * Reports the contacts afterwards. */
 #include <string.h>
 
-#include "collide/external_body.h"
 #include "contact/contact.h"
 #include "math/vec3.h"
+#include "shapes/external_body.h"
 #include "skin/skin.h"
 #include "soft/soft.h"
-#include "solvers/rolling.h"
-#include "solvers/scheme.h"
-#include "solvers/soft_contacts.h"
+#include "soft/solvers/rolling.h"
+#include "soft/solvers/scheme.h"
+#include "soft/solvers/soft_contacts.h"
 
 void sbri_island_fill_unused_slots(sbri_character *c, const sbri_island *island) {
   sbri_point *positions = sbri_positions(c) + island->first_slot;

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "soft/soft.h"
-#include "solvers/external_forces.h"
-#include "solvers/reaction.h"
+#include "soft/solvers/external_forces.h"
+#include "soft/solvers/reaction.h"
 
 /* The search for a region's rotation begins at the previous rotation, which is state; this uses a copy. */
 static void add_regions(const sbri_island_tick *t) {

@@ -8,8 +8,8 @@
 
 #include "math/vec3.h"
 #include "soft/soft.h"
-#include "solvers/rigid_motion.h"
-#include "solvers/router.h"
+#include "soft/solvers/rigid_motion.h"
+#include "soft/solvers/router.h"
 
 /* Ticks after which a collapsed body is reset, and after which a damped body is reset whose shape no load
  * explains. */

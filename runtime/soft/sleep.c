@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/hash64.h"
-#include "collide/ground.h"
 #include "math/vec3.h"
+#include "shapes/ground.h"
 #include "soft/soft.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 /* Fraction of its size per second below which a body is at rest. */
 static const float IDLE_1_S = 0.01f;

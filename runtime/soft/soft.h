@@ -2,9 +2,9 @@
 #ifndef SBRI_SOFT_H
 #define SBRI_SOFT_H
 
-#include "pose/frames.h"
+#include "state/pose/frames.h"
 
-/* ---- soft/placing.c ---- */
+/* ---- soft/rest_reset.c ---- */
 
 /* Resets all soft bodies to their rest shape at the present pose, with zero velocities. */
 void sbri_character_reset_to_rest(sbri_character *c);

@@ -1,8 +1,8 @@
 /* Mass, momentum and rigid motion of whole bodies, and how a body without pins keeps its motion when the
  * detail level changes. */
 #include "soft/soft.h"
-#include "solvers/rigid_motion.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/rigid_motion.h"
+#include "soft/solvers/scheme.h"
 
 /* Keeps the angular velocity, not the angular momentum: a coarse lattice has more mass far out, and a visible
  * change of rotation would be worse (docs/detail.md). */

@@ -144,7 +144,7 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
   grid_level(&coarse, 2);
   ck_assert_uint_eq(fine.lattice.tetrahedra.count, 15360);
   ck_assert_uint_eq(coarse.lattice.tetrahedra.count, 240);
-  ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset,
+  ck_assert_int_eq(sbfi_reference_from_level(&r, body, &fine, NULL, asset,
                        &(sbfi_reference_use){.falls = true, .twists = true, .pushes = true}, NULL),
       0);
   ck_assert(r.sound);
@@ -491,7 +491,8 @@ START_TEST(one_factor_for_all_has_bounds)
     grid_level(&fine, 2);
     grid_level(&level, 2);
     body->attributes.young_modulus = 1e6f * cases[i].times;
-    ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){0}, NULL), 0);
+    ck_assert_int_eq(
+        sbfi_reference_from_level(&r, body, &fine, NULL, asset, &(sbfi_reference_use){0}, NULL), 0);
     body->attributes.young_modulus = 1e6f;
     ck_assert(
         sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
@@ -523,7 +524,8 @@ START_TEST(a_crumb_does_not_set_the_factor)
   grid_level(&fine, 2);
   grid_level(&level, 2);
   soften(&level, 6, 1e-6f);
-  ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){0}, NULL), 0);
+  ck_assert_int_eq(
+      sbfi_reference_from_level(&r, body, &fine, NULL, asset, &(sbfi_reference_use){0}, NULL), 0);
   ck_assert(
       sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
   ck_assert_double_gt(c.residual, 50);
@@ -543,7 +545,7 @@ START_TEST(no_element_takes_more_than_twice_its_modulus)
   grid_level(&level, 2);
   body->attributes.young_modulus = 1e6f;
   soften(&fine, 30 * 4 * 4 * 4 / 2, 20); /* the outer half is stiffer: along x, as elements are listed */
-  ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset,
+  ck_assert_int_eq(sbfi_reference_from_level(&r, body, &fine, NULL, asset,
                        &(sbfi_reference_use){.twists = true, .pushes = true}, NULL),
       0);
   ck_assert(

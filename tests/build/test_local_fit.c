@@ -114,7 +114,7 @@ static shares_off compare(const held_body *of, uint32_t elements) {
     sbfi_calibration calibration;
     const sbfi_reference_use use = {.twists = local, .pushes = local};
     sbf_level level = lattice(of->body, elements);
-    ck_assert_int_eq(sbfi_reference_take(&reference, of->body, &fine, NULL, asset, &use, NULL), 0);
+    ck_assert_int_eq(sbfi_reference_from_level(&reference, of->body, &fine, NULL, asset, &use, NULL), 0);
     ck_assert(sbfi_level_calibrate(
         &level, of->body, NULL, &reference, false, 1.0 / 60, asset, &calibration, (sbfi_progress){0}, NULL));
     sbfi_reference_free(&reference);

@@ -74,7 +74,7 @@ static bool turns(const char *pinned) {
   bool turn;
   for (int i = 0; i < 6; i++) masses[i] = pinned[i] == '1' ? 0 : 1;
   n.ends = sides, n.spring_count = 6, n.positions = at;
-  ck_assert(sbfi_pieces_turn(&n, 10, &turn, &arena));
+  ck_assert(sbfi_pieces_can_rotate(&n, 10, &turn, &arena));
   return turn;
 }
 

@@ -32,7 +32,7 @@ static void setup(void) {
   for (uint32_t l = 0; l < statics.load_count; l++) {
     double frequency;
     gives[l] = sbfi_arena_allocate(&arena, body->surface.positions.count, 3 * sizeof(double));
-    ck_assert(sbfi_level_lean(&statics, &linear, l, 1e-4, gives[l], &frequency, &arena));
+    ck_assert(sbfi_level_solve_linear(&statics, &linear, l, 1e-4, gives[l], &frequency, &arena));
   }
 }
 static void teardown(void) {

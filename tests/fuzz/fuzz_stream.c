@@ -13,7 +13,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (size) memcpy(aligned, data, size);
   FUZZ_MUST(sbfi_scene_init(&scene, NULL, 1 << 26, "fuzz.fbx"));
   scene.format = "fbx";
-  sbf_status status = sbfi_assimp_take(&scene, aligned, size, NULL, &error);
+  sbf_status status = sbfi_assimp_parse(&scene, aligned, size, NULL, &error);
   free(aligned); /* the scene keeps nothing of it */
   if (status == SBF_OK) {
     const char *broken = scene_check(&scene);

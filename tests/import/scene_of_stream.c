@@ -10,7 +10,7 @@ void scene_of_stream(sbfi_scene *scene, stream_builder *s, const char *format) {
   sbf_diagnostic error = {0};
   ck_assert(sbfi_scene_init(scene, NULL, 0, "test"));
   scene->format = format;
-  sbf_status status = sbfi_assimp_take(scene, s->at, s->size, NULL, &error);
+  sbf_status status = sbfi_assimp_parse(scene, s->at, s->size, NULL, &error);
   ck_assert_msg(status == SBF_OK, "%s", error.message);
   free(s->at);
   const char *broken = scene_check(scene);

@@ -444,7 +444,7 @@ static sbf_status answer(stream_builder *s, const char *format, sbf_diagnostic *
   sbfi_scene scene;
   ck_assert(sbfi_scene_init(&scene, NULL, 0, "test"));
   scene.format = format;
-  sbf_status status = sbfi_assimp_take(&scene, s->at, s->size, NULL, error);
+  sbf_status status = sbfi_assimp_parse(&scene, s->at, s->size, NULL, error);
   sbfi_scene_free(&scene);
   free(s->at);
   return status;

@@ -87,7 +87,7 @@ START_TEST(real_files_saved_at_rest_or_not)
   ck_assert(sbfi_bind_worlds(&scene, worlds, &deviation));
   ck_assert_msg(files[_i].at_rest ? deviation < 1e-4 : deviation > 0.1, "%s: %g", files[_i].file, deviation);
   const sbfi_scene_node *before = scene.nodes;
-  ck_assert(sbfi_scene_take_bind_pose(&scene));
+  ck_assert(sbfi_scene_apply_bind_pose(&scene));
   ck_assert((scene.nodes == before) == files[_i].at_rest);
   ck_assert_uint_eq(scene.warning_count, files[_i].at_rest ? 0 : 1);
   const char *broken = scene_check(&scene);
@@ -107,7 +107,7 @@ START_TEST(clips_show_what_they_showed)
   sbfi_scene scene, posed;
   ck_assert_int_eq(sbfi_scene_read(&scene, path, NULL, NULL), SBF_OK);
   ck_assert_int_eq(sbfi_scene_read(&posed, path, NULL, NULL), SBF_OK);
-  ck_assert(sbfi_scene_take_bind_pose(&posed));
+  ck_assert(sbfi_scene_apply_bind_pose(&posed));
   ck_assert_uint_eq(posed.clip_count, scene.clip_count);
   for (uint32_t i = 0; i < posed.clip_count; i++) {
     const sbfi_scene_clip *clip = &posed.clips[i];
@@ -136,7 +136,7 @@ START_TEST(memory_may_run_out)
   ((sbfi_scene_node *)scene.nodes)[2].world.at[0][3] += 5; /* no longer as bound */
   for (size_t capacity = 0;; capacity += 64) {
     scene.arena.limit_bytes = scene.arena.used_bytes + capacity;
-    if (sbfi_scene_take_bind_pose(&scene)) break;
+    if (sbfi_scene_apply_bind_pose(&scene)) break;
     ck_assert_uint_lt(capacity, 1 << 20);
   }
   ck_assert_ptr_null(scene_check(&scene));

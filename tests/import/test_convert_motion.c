@@ -73,7 +73,7 @@ static void direction(const sbf_asset *asset, float time_s, uint32_t bone, doubl
   sbfi_arena_init(&scratch, NULL, 0);
   ck_assert(sbfi_clip_poses_init(&poses, asset, &asset->clips.at[0], &scratch));
   sbfi_clip_pose(&poses, time_s, frames);
-  sbfi_turn_vector(frames[bone].rotation, along, to);
+  sbfi_quatd_rotate(frames[bone].rotation, along, to);
   memcpy(position, frames[bone].position, sizeof frames[bone].position);
   sbfi_arena_free(&scratch);
 }

@@ -6,14 +6,16 @@ START_TEST(names_tell_what_is_hard)
 {
   static const struct {
     const char *name;
-    sbfi_name_says says;
-  } samples[] = {{"LowerArm.L", SBFI_SAYS_LIMB}, {"lower_leg.R", SBFI_SAYS_LIMB},
-      {"UpperLeg.L", SBFI_SAYS_NOTHING}, {"mixamorig:LeftHandThumb2", SBFI_SAYS_LIMB},
-      {"b_LeftForeArm_011", SBFI_SAYS_LIMB}, {"Ear2.L", SBFI_SAYS_SOFT}, {"Tail01", SBFI_SAYS_SOFT},
-      {"Bear", SBFI_SAYS_NOTHING}, {"spring", SBFI_SAYS_NOTHING}, {"EyeBrow.L", SBFI_SAYS_FACE},
-      {"jaw_master", SBFI_SAYS_FACE}, {"GunBarrel", SBFI_SAYS_PROP}, {"wheel_FL", SBFI_SAYS_PROP},
-      {"MechBody", SBFI_SAYS_MACHINE}, {"Tank", SBFI_SAYS_MACHINE}, {"bellyButton", SBFI_SAYS_SOFT},
-      {"", SBFI_SAYS_NOTHING}, {NULL, SBFI_SAYS_NOTHING}, {"Bone.003", SBFI_SAYS_NOTHING}};
+    sbfi_name_hint says;
+  } samples[] = {{"LowerArm.L", SBFI_NAME_HINT_LIMB}, {"lower_leg.R", SBFI_NAME_HINT_LIMB},
+      {"UpperLeg.L", SBFI_NAME_HINT_NONE}, {"mixamorig:LeftHandThumb2", SBFI_NAME_HINT_LIMB},
+      {"b_LeftForeArm_011", SBFI_NAME_HINT_LIMB}, {"Ear2.L", SBFI_NAME_HINT_SOFT},
+      {"Tail01", SBFI_NAME_HINT_SOFT}, {"Bear", SBFI_NAME_HINT_NONE}, {"spring", SBFI_NAME_HINT_NONE},
+      {"EyeBrow.L", SBFI_NAME_HINT_FACE}, {"jaw_master", SBFI_NAME_HINT_FACE},
+      {"GunBarrel", SBFI_NAME_HINT_PROP}, {"wheel_FL", SBFI_NAME_HINT_PROP},
+      {"MechBody", SBFI_NAME_HINT_MACHINE}, {"Tank", SBFI_NAME_HINT_MACHINE},
+      {"bellyButton", SBFI_NAME_HINT_SOFT}, {"", SBFI_NAME_HINT_NONE}, {NULL, SBFI_NAME_HINT_NONE},
+      {"Bone.003", SBFI_NAME_HINT_NONE}};
   for (size_t i = 0; i < sizeof samples / sizeof *samples; i++)
     ck_assert_msg(sbfi_words_of_name(samples[i].name) == samples[i].says, "%s",
         samples[i].name ? samples[i].name : "NULL");

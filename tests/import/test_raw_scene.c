@@ -16,7 +16,7 @@ static sbf_status take(const uint8_t *bytes, size_t size, sbf_diagnostic *error)
   sbfi_scene scene;
   ck_assert(sbfi_scene_init(&scene, NULL, 0, "test.fbx"));
   scene.format = "fbx";
-  sbf_status status = sbfi_assimp_take(&scene, copy, size, NULL, error);
+  sbf_status status = sbfi_assimp_parse(&scene, copy, size, NULL, error);
   free(copy);
   if (status == SBF_OK) {
     const char *broken = scene_check(&scene);
@@ -122,7 +122,7 @@ START_TEST(every_allocation_may_fail)
     sbf_status status = SBF_FAILED;
     if (sbfi_scene_init(&scene, &memory.allocator, 0, "test.fbx")) {
       scene.format = "fbx";
-      status = sbfi_assimp_take(&scene, s.at, s.size, &memory.allocator, &error);
+      status = sbfi_assimp_parse(&scene, s.at, s.size, &memory.allocator, &error);
       if (status != SBF_OK) ck_assert_int_eq(error.code, SBF_CODE_OUT_OF_MEMORY);
     }
     sbfi_scene_free(&scene);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "conversions.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 static const double DEGREE = 0.017453292519943295;
 
@@ -55,14 +55,14 @@ static void posed(const sbf_asset *a, const sbf_pose *pose, int32_t bone, double
     const sbf_quat p = a->bones.at[parent].rotation;
     double above[4], undo[4], local[4], of_parent[4] = {p.x, p.y, p.z, p.w};
     posed(a, pose, parent, above);
-    sbfi_turn_undo(of_parent, undo);
-    sbfi_turn_product(undo, rest, local);
-    sbfi_turn_product(above, local, to);
+    sbfi_quatd_conjugate(of_parent, undo);
+    sbfi_quatd_multiply(undo, rest, local);
+    sbfi_quatd_multiply(above, local, to);
   }
   const sbf_pose_key *key = key_of(pose, bone);
   if (!key) return;
   double rotation[4] = {key->rotation.x, key->rotation.y, key->rotation.z, key->rotation.w};
-  sbfi_turn_product(to, rotation, to);
+  sbfi_quatd_multiply(to, rotation, to);
 }
 
 /* Where the bone's child lies from it in the pose, of unit length. */
@@ -73,9 +73,9 @@ static void direction(
   const sbf_vec3 p = a->bones.at[bone].head, q = a->bones.at[child].head;
   double separation[3] = {q.x - p.x, q.y - p.y, q.z - p.z};
   posed(a, pose, bone, now);
-  sbfi_turn_undo(rest, undo);
-  sbfi_turn_vector(undo, separation, heading);
-  sbfi_turn_vector(now, heading, heading);
+  sbfi_quatd_conjugate(rest, undo);
+  sbfi_quatd_rotate(undo, separation, heading);
+  sbfi_quatd_rotate(now, heading, heading);
   for (int k = 0; k < 3; k++) length += heading[k] * heading[k];
   for (int k = 0; k < 3; k++) heading[k] /= sqrt(length);
 }
@@ -163,10 +163,10 @@ START_TEST(arms_swing_against_legs)
     direction(a, rest, arm, bone_named(a, side > 0 ? "elbow.L" : "elbow.R"), before);
     double own[3], after[3], undo[4];
     posed(a, rest, arm, frame);
-    sbfi_turn_undo(frame, undo);
-    sbfi_turn_vector(undo, before, own);
-    sbfi_turn_vector(swing, own, own);
-    sbfi_turn_vector(frame, own, after);
+    sbfi_quatd_conjugate(frame, undo);
+    sbfi_quatd_rotate(undo, before, own);
+    sbfi_quatd_rotate(swing, own, own);
+    sbfi_quatd_rotate(frame, own, after);
     bool first = (gait->legs.at[0].home.x > 0) == (side > 0);
     ck_assert((after[2] > before[2] + 0.2) == first);
     ck_assert((after[2] < before[2] - 0.2) == !first);

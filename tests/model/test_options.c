@@ -48,19 +48,19 @@ START_TEST(test_options_of_any_age_are_taken)
     size_t struct_size;
     int old, young;
   } given = {0, 1, 2}, taken = {0};
-  ck_assert(sbfi_options_take(&taken, sizeof taken, NULL));
+  ck_assert(sbfi_options_copy(&taken, sizeof taken, NULL));
   ck_assert_int_eq(taken.old, 0);
-  ck_assert(sbfi_options_take(&taken, sizeof taken, &given));
+  ck_assert(sbfi_options_copy(&taken, sizeof taken, &given));
   ck_assert_int_eq(taken.young, 2);
   taken.young = 0;
   given.struct_size = sizeof(size_t) + sizeof(int);
-  ck_assert(sbfi_options_take(&taken, sizeof taken, &given));
+  ck_assert(sbfi_options_copy(&taken, sizeof taken, &given));
   ck_assert(taken.old == 1 && taken.young == 0);
   given.struct_size = sizeof given + 100; /* of a newer one: what is known of it */
-  ck_assert(sbfi_options_take(&taken, sizeof taken, &given));
+  ck_assert(sbfi_options_copy(&taken, sizeof taken, &given));
   ck_assert_int_eq(taken.young, 2);
   given.struct_size = 3;
-  ck_assert(!sbfi_options_take(&taken, sizeof taken, &given));
+  ck_assert(!sbfi_options_copy(&taken, sizeof taken, &given));
 }
 END_TEST
 

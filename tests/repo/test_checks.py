@@ -14,7 +14,7 @@ import check_words
 import repo_files
 
 FILES = {"libsbfmt/base/memory.h", "libsbfmt/model/check.h", "libsbfmt/build/springs/springs.h", "libsbfmt/xml/reader.h",
-         "libsbfmt/validate/rules.h", "libsbfmt/mechanics/spring.h", "runtime/world/world.h", "runtime/math/vec3.h", "tools/cli.h"}
+         "libsbfmt/validate/rules.h", "libsbfmt/mechanics/spring.h", "runtime/state/world.h", "runtime/math/vec3.h", "tools/cli.h"}
 
 
 class Includes(unittest.TestCase):
@@ -24,32 +24,43 @@ class Includes(unittest.TestCase):
             self.assertEqual(set(below) - set(seen), set(), folder)
             seen.append(folder)
 
+    def test_groups_of_folders_form_no_circle(self):
+        group = lambda folder: folder.split("/")[0]
+        above = {}
+        for folder, below in check_includes.RUNTIME.items():
+            above.setdefault(group(folder), set()).update(group(one) for one in below if group(one) != group(folder))
+        placed = set()
+        while ready := {one for one in above if one not in placed and above[one] <= placed}:
+            placed |= ready
+        self.assertEqual(set(above) - placed, set())
+
     def faults(self, path, *lines):
         return check_includes.faults_of(path, "".join(f"#include {line}\n" for line in lines), FILES)
 
     def test_right_arrows(self):
         for path, line in [("libsbfmt/model/a.c", '"base/memory.h"'), ("libsbfmt/build/a.c", '"mechanics/spring.h"'),
                            ("libsbfmt/xml/a.c", "<libxml/parser.h>"), ("libsbfmt/packed/a.c", "<zlib.h>"),
-                           ("libsbfmt/import/assimp/a.c", "<assimp/scene.h>"), ("runtime/step/a.c", '"base/memory.h"'),
-                           ("runtime/step/a.c", '"mechanics/spring.h"'), ("runtime/step/a.c", '"math/vec3.h"'),
+                           ("libsbfmt/import/assimp/a.c", "<assimp/scene.h>"), ("runtime/world/a.c", '"base/memory.h"'),
+                           ("runtime/world/a.c", '"mechanics/spring.h"'), ("runtime/world/a.c", '"math/vec3.h"'),
                            ("libsbfmt/base/file_posix.c", "<sys/mman.h>"), ("tools/a.c", '"sbfmt/convert.h"'),
-                           ("tools/a.c", "<string.h>"), ("tests/base/a.c", '"runtime/world/world.h"')]:
+                           ("tools/a.c", "<string.h>"), ("tests/base/a.c", '"runtime/state/world.h"')]:
             self.assertEqual(self.faults(path, line), [], (path, line))
 
     def test_wrong_arrows(self):
         for path, line in [("libsbfmt/base/a.c", '"model/check.h"'), ("libsbfmt/mechanics/a.c", '"build/springs/springs.h"'),
                            ("libsbfmt/xml/a.c", '"build/springs/springs.h"'), ("libsbfmt/build/a.c", '"validate/rules.h"'),
                            ("libsbfmt/model/a.c", "<libxml/tree.h>"), ("libsbfmt/xml/a.c", "<zlib.h>"),
-                           ("libsbfmt/import/a.c", "<assimp/scene.h>"), ("runtime/step/a.c", '"build/springs/springs.h"'),
-                           ("runtime/step/a.c", "<libxml/parser.h>"), ("runtime/step/a.c", '"sbfmt/build.h"'),
-                           ("runtime/step/a.c", "<sbfmt/convert.h>"), ("runtime/math/a.h", '"world/world.h"'), ("runtime/solvers/a.c", '"world/world.h"'),
-                           ("runtime/hosts/web/a.c", '"world/world.h"'), ("tools/a.c", '"base/memory.h"'),
+                           ("libsbfmt/import/a.c", "<assimp/scene.h>"), ("runtime/world/a.c", '"build/springs/springs.h"'),
+                           ("runtime/world/a.c", "<libxml/parser.h>"), ("runtime/world/a.c", '"sbfmt/build.h"'),
+                           ("runtime/world/a.c", "<sbfmt/convert.h>"), ("runtime/math/a.h", '"state/world.h"'),
+                           ("runtime/soft/solvers/a.c", '"state/world.h"'),
+                           ("runtime/hosts/web/a.c", '"state/world.h"'), ("tools/a.c", '"base/memory.h"'),
                            ("libsbfmt/include/sbfmt/packed.h", '"sbfmt/io.h"'), ("runtime/hosts/web/a.c", '"sbfmt/io.h"'),
                            ("libsbfmt/include/sbfmt/packed.h", '"sbfmt/validate.h"'),
                            ("libsbfmt/include/sbfmt/packed.h", '"base/memory.h"'),
                            ("libsbfmt/include/sbfmt/novel.h", '"sbfmt/base.h"'),
                            ("libsbfmt/base/text.c", "<locale.h>"), ("libsbfmt/base/text.c", "<unistd.h>"),
-                           ("runtime/step/a.c", "<pthread.h>"), ("libsbfmt/base/a.c", '"base/nowhere.h"'),
+                           ("runtime/world/a.c", "<pthread.h>"), ("libsbfmt/base/a.c", '"base/nowhere.h"'),
                            ("libsbfmt/base/a.c", '"sbrun/sbrun.h"')]:
             self.assertEqual(len(self.faults(path, line)), 1, (path, line))
 
@@ -69,7 +80,7 @@ class Charts(unittest.TestCase):
 
 
 class Calls(unittest.TestCase):
-    PLACES = {"a.c": "runtime/step/a.c", "b.c": "runtime/world/b.c", "c.c": "runtime/world/c.c"}
+    PLACES = {"a.c": "runtime/world/a.c", "b.c": "runtime/state/b.c", "c.c": "runtime/state/c.c"}
 
     def faults(self, **calls):
         """`calls`: of each file (without its .c) the functions that it calls; each defines one of its own name."""
@@ -84,9 +95,9 @@ class Calls(unittest.TestCase):
     def test_a_circle(self):
         faults = self.faults(a="b", b="c", c="b")
         self.assertEqual(len(faults), 1)
-        for name in ("runtime/world/b.c", "runtime/world/c.c", "sbri_b", "sbri_c"):
+        for name in ("runtime/state/b.c", "runtime/state/c.c", "sbri_b", "sbri_c"):
             self.assertIn(name, faults[0])
-        self.assertNotIn("runtime/step/a.c", faults[0])
+        self.assertNotIn("runtime/world/a.c", faults[0])
 
     def test_a_call_up(self):
         faults = self.faults(a="", b="a", c="")
@@ -95,7 +106,7 @@ class Calls(unittest.TestCase):
 
     def test_members_of_another_format(self):
         calls, _ = check_calls.read("\na.c.obj:\n0000 T sbri_a\nU sbri_b\n\nb.c.obj:\n0000 R sbri_b\n", self.PLACES)
-        self.assertEqual(calls, {"runtime/step/a.c": {"runtime/world/b.c": ["sbri_b"]}, "runtime/world/b.c": {}})
+        self.assertEqual(calls, {"runtime/world/a.c": {"runtime/state/b.c": ["sbri_b"]}, "runtime/state/b.c": {}})
 
 
 class Files(unittest.TestCase):

@@ -5,7 +5,7 @@
 #include "harness.h"
 #include "momentum.h"
 #include "sbrun/collision.h"
-#include "world/world.h"
+#include "state/world.h"
 
 scene contact_scene_begin(sbf_vec3 gravity) {
   scene s = rigid_begin();

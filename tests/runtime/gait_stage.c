@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
+#include "animation/skeleton/rig_make.h"
 #include "sbfmt/asset.h"
-#include "skeleton/rig_make.h"
 
 /* Rig, state and pose, of the asset and the input. */
 static void make(gait_stage *s) {

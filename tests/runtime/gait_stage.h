@@ -2,7 +2,7 @@
 #ifndef TEST_GAIT_STAGE_H
 #define TEST_GAIT_STAGE_H
 
-#include "gait/gait_state.h"
+#include "animation/gait/gait_state.h"
 
 typedef struct gait_stage {
   sbf_asset *asset;

@@ -2,7 +2,7 @@
 #ifndef IK_CHAINS_H
 #define IK_CHAINS_H
 
-#include "ik/ik.h"
+#include "animation/ik/ik.h"
 
 enum { IK_CHAIN_JOINTS = 11 };
 

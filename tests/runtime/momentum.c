@@ -1,7 +1,7 @@
 #include "momentum.h"
 
 #include "rigid_scenes.h"
-#include "world/state.h"
+#include "state/state.h"
 
 static void add(scene_momentum *to, double mass, sbf_vec3 at, sbf_vec3 v) {
   const double x[3] = {(double)at.x, (double)at.y, (double)at.z},

@@ -3,7 +3,7 @@
 #define TEST_MOMENTUM_H
 
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* kg m/s, kg m^2/s about the origin, and kg; places and speeds are those that each character keeps. */
 typedef struct scene_momentum {

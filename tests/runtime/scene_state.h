@@ -3,7 +3,7 @@
 #define TEST_SCENE_STATE_H
 
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* x of a slot's velocity, m/s; y and z are SBRI_BLOCK and 2 x SBRI_BLOCK further on. */
 float *scene_velocity(const scene *s, uint32_t slot);

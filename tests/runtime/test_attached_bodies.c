@@ -4,8 +4,8 @@
 #include "harness.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 enum { ACROSS = 5, HIGH = 3, DEEP = 3, POINTS = ACROSS * HIGH * DEEP };
 /* Of the bone with the flesh; the other one is what it hangs on. */

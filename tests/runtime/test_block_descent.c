@@ -5,8 +5,8 @@
 #include "harness.h"
 #include "random.h"
 #include "scenes.h"
-#include "solvers/descent_table.h"
-#include "world/world.h"
+#include "soft/solvers/descent_table.h"
+#include "state/world.h"
 
 static const double PI = 3.14159265358979323846;
 

@@ -1,4 +1,4 @@
-#include "collide/bounds_tree.h"
+#include "shapes/bounds_tree.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 #include "harness.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static const float DAMPING = 3; /* N s/m, of the spring */
 

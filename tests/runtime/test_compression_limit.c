@@ -1,11 +1,11 @@
-#include "solvers/compression_limit.h"
+#include "soft/solvers/compression_limit.h"
 
 #include <math.h>
 
 #include "harness.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
     SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT};

@@ -5,8 +5,8 @@
 
 #include "harness.h"
 #include "scenes.h"
-#include "solvers/motion.h"
-#include "world/world.h"
+#include "soft/solvers/motion.h"
+#include "state/world.h"
 
 /* The box of 2 x 2 x 2 cells that carries the surface: smaller than it by a fifth. */
 static const sbf_vec3 inner_low = {-0.16f, 0.04f, -0.16f}, inner_size = {0.32f, 0.32f, 0.32f};

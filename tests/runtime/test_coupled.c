@@ -6,8 +6,8 @@
 #include "host_threads.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 static const double PI = 3.14159265358979;
 

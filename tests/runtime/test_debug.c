@@ -2,7 +2,7 @@
 #include "sbrun/debug.h"
 
 #include "sbfmt/codes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 #include "collision_scenes.h"
 #include "harness.h"

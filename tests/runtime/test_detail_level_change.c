@@ -2,11 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "detail/detail_levels.h"
 #include "detail_scenes.h"
 #include "harness.h"
-#include "solvers/rigid_motion.h"
+#include "soft/solvers/rigid_motion.h"
 #include "tape.h"
+#include "world/detail/detail_levels.h"
 
 /* Half a pixel of a screen of 1080, 60 degrees high, two metres away. */
 static const double HALF_PIXEL_M = 0.5 * 2 * 2 * 0.57735 / 1080;

@@ -5,7 +5,7 @@
 #include "math/vec3.h"
 #include "sbrun/animation.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* ---- A rod held along its middle, by a bone at its end that a clip moves ---- */
 

@@ -1,5 +1,5 @@
 /* Bodies of a host that flesh moves within the tick: they come to rest on it, and momentum is kept. */
-#include "collide/external_body.h"
+#include "shapes/external_body.h"
 
 #include <math.h>
 

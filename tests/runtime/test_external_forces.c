@@ -1,6 +1,6 @@
 /* Gas, medium, bending and fields: shapes against differences of their energies, bodies against closed forms.
  */
-#include "solvers/external_forces.h"
+#include "soft/solvers/external_forces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,8 +8,8 @@
 
 #include "harness.h"
 #include "scenes.h"
-#include "solvers/surface_forces.h"
-#include "world/world.h"
+#include "soft/solvers/surface_forces.h"
+#include "state/world.h"
 
 static const sbf_scheme schemes[] = {
     SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN};

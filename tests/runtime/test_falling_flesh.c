@@ -3,7 +3,7 @@
 
 #include "harness.h"
 #include "rigid_scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 enum { TRUNK, LIMB };
 

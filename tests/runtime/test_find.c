@@ -2,14 +2,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "body_contact/body_contacts.h"
 #include "collision_scenes.h"
 #include "contact_scenes.h"
+#include "coupling/body_contact/body_contacts.h"
 #include "harness.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
 #include "skin_depth.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* A soft bar, bent to a U that lies on its side: two legs, 8 cm apart; its lattice is of 18 x 2 x 2 cells,
  * its skin of 24 x 3 x 3 squares. */

@@ -7,7 +7,7 @@
 #include "momentum.h"
 #include "shapes.h"
 #include "skin_depth.h"
-#include "world/world.h"
+#include "state/world.h"
 
 enum { CELLS = 6, MAX = 64, PLACES = 24 };
 static const float LENGTH = 0.6f, THICK = 0.06f;

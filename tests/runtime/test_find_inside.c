@@ -1,14 +1,14 @@
 /* Thin limbs, of which no vertex lies in the other where they cross, and rigid rods through soft bodies. */
 #include <math.h>
 
-#include "collide/triangle.h"
 #include "contact_scenes.h"
 #include "harness.h"
 #include "lattice_box.h"
 #include "momentum.h"
 #include "sbrun/collision.h"
+#include "shapes/triangle.h"
 #include "skin_depth.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* A capsule of eight sides: rings as far apart as it is thick, or further. */
 enum { SIDES = 8, MAX_RINGS = 24, MAX = SIDES * MAX_RINGS + 2, CELLS = 12 };

@@ -6,7 +6,7 @@
 #include "math/vec3.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* A strip of 1 m by 4 cm in five squares' length, along x or along z, through `middle`. */
 enum { ROWS = 6, POINTS = 2 * ROWS };

@@ -9,7 +9,7 @@
 #include "momentum.h"
 #include "shapes.h"
 #include "skin_depth.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* A soft bar along X about its character; its lattice is of 15 x 3 x 3 cells, its skin of 24 x 4 x 4. */
 enum { LONG = 15, WIDE = 3, SKIN_LONG = 24, SKIN_WIDE = 4, MAX = 512 };

@@ -69,12 +69,12 @@ END_TEST
 START_TEST(turns_follow_the_shorter_way_and_come_to_rest)
 {
   sbri_follower_step step = sbri_follower_step_of(2, 0.5f, 0, 1.0f / 60);
-  sbri_turn_follower f;
-  sbri_turn_follower_reset(&f, sbri_quat_about(sbri_vec3(0, 1, 0), 3));
+  sbri_rotation_follower f;
+  sbri_rotation_follower_reset(&f, sbri_quat_about(sbri_vec3(0, 1, 0), 3));
   sbf_quat to = sbri_quat_about(sbri_vec3(0, 1, 0), -3); /* 0.28 rad on, across half a turn */
   float beyond = 0;
   for (int i = 0; i < 240; i++) {
-    sbri_turn_follower_tick(&f, to, &step);
+    sbri_rotation_follower_tick(&f, to, &step);
     sbf_vec3 off = sbri_quat_log(sbri_quat_multiply(f.value, sbri_quat_conjugate(to)));
     beyond = fmaxf(beyond, off.y);
     ck_assert_float_le(fabsf(off.y), 0.29f);

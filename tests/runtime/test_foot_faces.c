@@ -1,4 +1,4 @@
-#include "gait/gait_state.h"
+#include "animation/gait/gait_state.h"
 #include "gait_stage.h"
 #include "harness.h"
 #include "quadruped.h"

@@ -1,4 +1,4 @@
-#include "gait/gait.h"
+#include "animation/gait/gait.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "gait/glide.h"
+#include "animation/gait/glide.h"
 
 #include "harness.h"
 

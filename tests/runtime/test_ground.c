@@ -1,7 +1,7 @@
 #include <math.h>
 
-#include "collide/ground.h"
 #include "harness.h"
+#include "shapes/ground.h"
 
 static const double pi = 3.14159265358979323846;
 

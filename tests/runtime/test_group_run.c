@@ -7,7 +7,7 @@
 #include "harness.h"
 #include "host_threads.h"
 #include "momentum.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static const sbf_vec3 weight = {0, -9.81f, 0};
 

@@ -3,7 +3,7 @@
  * early by turns, a place that jumps, matter as stiff as steel is soft; in every scheme that takes it. */
 #include "harness.h"
 #include "scenes.h"
-#include "world/state.h"
+#include "state/state.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
     SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_EXPLICIT_EULER};

@@ -2,7 +2,7 @@
 
 #include "harness.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 START_TEST(energies_of_a_stretched_falling_pair)
 {

@@ -6,7 +6,7 @@
 #include "harness.h"
 #include "sbrun/animation.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 enum {
   CELLS = 6,

@@ -1,4 +1,4 @@
-#include "collide/hull_pair.h"
+#include "shapes/hull_pair.h"
 
 #include "harness.h"
 

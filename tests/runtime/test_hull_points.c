@@ -1,10 +1,10 @@
 /* Hulls of points: everything inside, everything convex, closed, and what encloses nothing is said. */
-#include "collide/hull_points.h"
+#include "shapes/hull_points.h"
 
 #include <math.h>
 
-#include "collide/shape.h"
 #include "harness.h"
+#include "shapes/shape.h"
 
 enum { MAX = 2000 };
 static sbf_vec3 points[MAX];

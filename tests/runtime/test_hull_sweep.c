@@ -7,7 +7,7 @@
 #include "math/vec3.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* A box of 5 cm, 0.2 kg, that stands `back` metres before a plate of 1 cm by a metre, and off its middle. */
 static scene begin(sbf_vec3 at, float plate_kg) {

@@ -4,7 +4,7 @@
 #include "mechanics/neo_hookean.h"
 #include "model/runtime_model.h"
 #include "scenes.h"
-#include "solvers/scheme.h"
+#include "soft/solvers/scheme.h"
 
 static lattice_box box;
 

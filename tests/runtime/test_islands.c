@@ -4,7 +4,7 @@
 #include "harness.h"
 #include "sbfmt/codes.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* Two bodies of one point each, joined by a spring of 50 N/m and 1 m; a third one on its own. */
 static scene joined(void) {

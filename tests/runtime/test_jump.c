@@ -6,7 +6,7 @@
 #include "sbrun/animation.h"
 #include "scenes.h"
 #include "shapes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 enum { CELLS = 4, SIDE = (CELLS + 1) * (CELLS + 1), JUMP_TICK = 30, KEYS = 5 };
 

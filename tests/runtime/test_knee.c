@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "gait/gait_state.h"
+#include "animation/gait/gait_state.h"
 #include "gait_stage.h"
 #include "harness.h"
 #include "quadruped.h"
@@ -14,7 +14,7 @@ static float follow(sbri_foot *foot, float (*wanted)(int), int count) {
   float max = 0, before = foot->knee.rate;
   for (int i = 0; i < count; i++) {
     float to = wanted(i);
-    sbri_knee_keep(foot, sbri_knee_follow(foot, to, TICK_S), to, TICK_S);
+    sbri_knee_store(foot, sbri_knee_follow(foot, to, TICK_S), to, TICK_S);
     max = fmaxf(max, fabsf(foot->knee.rate - before) * TICK_S * DEGREES);
     before = foot->knee.rate;
   }
@@ -54,7 +54,7 @@ START_TEST(a_knee_that_can_go_along_does_so_exactly)
   for (int i = 20; i < 80; i++) {
     float angle = sbri_knee_follow(&foot, swings(i), TICK_S);
     ck_assert_float_eq(angle, swings(i));
-    sbri_knee_keep(&foot, angle, angle, TICK_S);
+    sbri_knee_store(&foot, angle, angle, TICK_S);
   }
 }
 END_TEST
@@ -93,7 +93,7 @@ START_TEST(a_leg_that_stands_stops_before_it_is_straight)
     if (!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest)) break;
     ck_assert_float_le(shortest, longest);
     float angle = sbri_knee_angle(&leg, 1, longest);
-    sbri_knee_keep(&foot, angle, angle, TICK_S);
+    sbri_knee_store(&foot, angle, angle, TICK_S);
     max = fmaxf(max, fabsf(foot.knee.rate - before) * TICK_S * DEGREES);
     before = foot.knee.rate;
   }

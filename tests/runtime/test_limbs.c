@@ -1,7 +1,7 @@
+#include "animation/skeleton/rig_limits.h"
 #include "gait_stage.h"
 #include "harness.h"
 #include "quadruped.h"
-#include "skeleton/rig_limits.h"
 
 enum { FORE_FOOT = 16 };
 

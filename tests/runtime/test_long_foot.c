@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "gait/gait_state.h"
+#include "animation/gait/gait_state.h"
 #include "harness.h"
 #include "math/quat.h"
 
@@ -25,7 +25,7 @@ static sbf_vec3 lean_ahead(
   const sbri_gait_input input = {.tick_s = TICK_S, .scale = scale};
   sbf_vec3 sole = sbri_scale(sbri_vec3(0, 0, ahead), scale);
   sbf_vec3 ankle = sbri_add(sole, sbri_scale(leg->home.ankle, scale)), hip = sbri_vec3(0, scale, 0);
-  return sbri_long_foot_lean(leg, foot, hip, sole, ankle, &input, advance, &foot->frame.tilt);
+  return sbri_long_foot_tilt(leg, foot, hip, sole, ankle, &input, advance, &foot->frame.tilt);
 }
 
 static float from_hip(sbf_vec3 ankle, float scale) {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gait/motion_kinds.h"
+#include "animation/gait/motion_kinds.h"
 #include "gait_stage.h"
 #include "harness.h"
 #include "math/quat.h"

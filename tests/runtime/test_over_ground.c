@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "gait/gait_state.h"
+#include "animation/gait/gait_state.h"
 #include "harness.h"
 
 static const float PI = 3.14159265f;
@@ -17,13 +17,13 @@ END_TEST
 
 START_TEST(a_quarter_turn_leads_from_ahead_to_the_left)
 {
-  sbf_vec3 left = sbri_turned(sbri_vec3(0, 0.5f, 2), 0.5f * PI);
+  sbf_vec3 left = sbri_rotate_yaw(sbri_vec3(0, 0.5f, 2), 0.5f * PI);
   ck_assert_float_le(sbri_length(sbri_sub(left, sbri_vec3(2, 0.5f, 0))), 1e-6f);
   sbf_vec3 v = {0.3f, -0.2f, 0.7f};
-  sbf_vec3 turned = sbri_turned(v, 0.8f);
+  sbf_vec3 turned = sbri_rotate_yaw(v, 0.8f);
   sbf_vec3 by_rotation = sbri_rotate(sbri_quat_about(sbri_vec3(0, 1, 0), 0.8f), v);
   ck_assert_float_le(sbri_length(sbri_sub(turned, by_rotation)), 1e-6f);
-  ck_assert_float_le(sbri_length(sbri_sub(sbri_turned(turned, -0.8f), v)), 1e-6f);
+  ck_assert_float_le(sbri_length(sbri_sub(sbri_rotate_yaw(turned, -0.8f), v)), 1e-6f);
 }
 END_TEST
 

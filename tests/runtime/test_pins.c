@@ -3,7 +3,7 @@
 #include "harness.h"
 #include "prepare/pins.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static sbf_pin_set *add_pins(scene *s, sbf_level *level, uint32_t set_count) {
   sbf_pin_set *sets = sbf_asset_allocate(s->asset, set_count, sizeof *sets);

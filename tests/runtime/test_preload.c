@@ -2,7 +2,7 @@
 
 #include "harness.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static scene section(bool sag_free) {
   scene s = scene_begin();

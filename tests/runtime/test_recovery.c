@@ -4,7 +4,7 @@
 #include "harness.h"
 #include "momentum.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static const double GRAVITY = 9.81;
 static const float SIZE = 0.2f;

@@ -5,7 +5,7 @@
 #include "harness.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static const double PI = 3.14159265358979323846;
 

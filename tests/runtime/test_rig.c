@@ -1,4 +1,4 @@
-#include "skeleton/rig.h"
+#include "animation/skeleton/rig.h"
 
 #include <math.h>
 

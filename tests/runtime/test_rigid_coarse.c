@@ -1,9 +1,9 @@
 /* Rigid parts that fall coarsely: for less, and still whole. */
 #include <math.h>
 
+#include "coupling/ragdoll/ragdoll.h"
 #include "harness.h"
 #include "host_threads.h"
-#include "ragdoll/ragdoll.h"
 #include "rigid_person.h"
 
 enum { SHOVES = 24, FINE_SHOVES = 4, TICKS = 360, RESTS_FROM = 300 };

@@ -1,6 +1,6 @@
 #include "harness.h"
 #include "random.h"
-#include "solvers/rigid_motion.h"
+#include "soft/solvers/rigid_motion.h"
 
 enum { POINTS = 16, REAL = 13 };
 

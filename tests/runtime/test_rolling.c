@@ -1,10 +1,10 @@
-#include "solvers/rolling.h"
+#include "soft/solvers/rolling.h"
 
 #include <math.h>
 
 #include "harness.h"
 #include "math/vec3.h"
-#include "solvers/rigid_motion.h"
+#include "soft/solvers/rigid_motion.h"
 
 enum { POINTS = 8 };
 static const float tick_s = 1.0f / 60, gravity = 10, half_width = 0.1f, angular_velocity = 3;

@@ -1,13 +1,13 @@
 /* What is left to the runtime: explicit steps where they are enough, position-based ones for what is too
  * stiff and for what is in trouble, and the rest shape for what does not come back. */
-#include "solvers/router.h"
+#include "soft/solvers/router.h"
 
 #include <math.h>
 
 #include "harness.h"
 #include "random.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static scene section(float modulus) {
   scene s = scene_begin();

@@ -3,8 +3,8 @@
 #include "harness.h"
 #include "sbfmt/codes.h"
 #include "scenes.h"
-#include "solvers/scheme.h"
-#include "world/world.h"
+#include "soft/solvers/scheme.h"
+#include "state/world.h"
 
 static scene section(void) {
   scene s = scene_begin();

@@ -15,8 +15,8 @@
 #include "mechanics/vector.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 typedef enum { SOLID, SPRINGS, REGIONS, MODEL_COUNT } elastic;
 typedef enum { STRETCH, BEND, BEND_FAR, TWIST, INCOMPRESSIBLE, SWING, SPIN, FAST_SPIN, CASE_COUNT } question;

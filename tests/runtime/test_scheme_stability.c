@@ -7,7 +7,7 @@
 #include "harness.h"
 #include "random.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
     SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_RELAXATION};

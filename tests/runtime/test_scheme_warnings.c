@@ -4,8 +4,8 @@
 #include "harness.h"
 #include "sbfmt/codes.h"
 #include "scenes.h"
-#include "solvers/scheme.h"
-#include "world/world.h"
+#include "soft/solvers/scheme.h"
+#include "state/world.h"
 
 typedef struct heard {
   uint32_t count;

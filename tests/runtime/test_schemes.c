@@ -6,8 +6,8 @@
 
 #include "harness.h"
 #include "scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 static const double pi = 3.14159265358979323846, tick = 1.0 / 60;
 

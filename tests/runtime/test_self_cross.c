@@ -5,7 +5,7 @@
 #include "grid_scenes.h"
 #include "harness.h"
 #include "math/vec3.h"
-#include "world/world.h"
+#include "state/world.h"
 
 enum { COLUMNS = 21, ROWS = 25, ALL = COLUMNS * ROWS };
 

@@ -1,8 +1,8 @@
 /* Distances, normals and ways in of every shape, against closed forms. */
 #include <math.h>
 
-#include "collide/shape.h"
 #include "harness.h"
+#include "shapes/shape.h"
 
 static sbr_shape *shape_of(sbr_shape_definition d) {
   sbr_shape *shape = NULL;

@@ -1,5 +1,5 @@
 /* Sides of triangles: rims, ridges, and which stands where. */
-#include "collide/sides.h"
+#include "shapes/sides.h"
 
 #include "harness.h"
 

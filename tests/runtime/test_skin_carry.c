@@ -3,7 +3,7 @@
 #include "harness.h"
 #include "math/vec3.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* Two bodies of four points each, a metre apart, and a mesh carried by both. */
 static scene carried(const float *blends) {

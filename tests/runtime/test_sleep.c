@@ -4,7 +4,7 @@
 #include "event_log.h"
 #include "harness.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 /* A pad that the host may raise under (0, 0), and how often it was asked. */
 typedef struct pad {

@@ -3,9 +3,9 @@
 #include "harness.h"
 #include "sbfmt/codes.h"
 #include "scenes.h"
-#include "solvers/scheme.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "soft/solvers/scheme.h"
+#include "state/state.h"
+#include "state/world.h"
 
 /* A cube of 0.4 m and 64 kg, 1 m above the ground. */
 static scene make(float young_pa, float poisson, sbf_scheme scheme) {

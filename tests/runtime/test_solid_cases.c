@@ -6,8 +6,8 @@
 #include "harness.h"
 #include "mechanics/vector.h"
 #include "scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 static lattice_box box;
 static scene s;

@@ -1,4 +1,4 @@
-#include "solvers/solid_limits.h"
+#include "soft/solvers/solid_limits.h"
 
 #include <stdlib.h>
 
@@ -6,8 +6,8 @@
 #include "mechanics/solid_strain.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 static lattice_box box;
 static scene s;

@@ -8,8 +8,8 @@
 #include "momentum.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 /* A bar of 1 x 0.2 x 0.2 m, weakest in its middle, whose halves fly apart. */
 static lattice_box box;

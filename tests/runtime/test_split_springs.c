@@ -9,8 +9,8 @@
 #include "momentum.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 enum { CELLS = 6, MIDDLE = CELLS / 2, POINTS = (CELLS + 1) * (CELLS + 1), SPRINGS = 4 * CELLS * (CELLS + 1) };
 static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN};

@@ -6,7 +6,7 @@
 #include "event_log.h"
 #include "harness.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static const sbf_scheme schemes[] = {
     SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN};

@@ -4,7 +4,7 @@
 #include "harness.h"
 #include "host_threads.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN,
     SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_RELAXATION};

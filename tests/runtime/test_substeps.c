@@ -4,7 +4,7 @@
 #include "random.h"
 #include "sbfmt/codes.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static scene section(float modulus, float beta) {
   scene s = scene_begin();

@@ -1,10 +1,10 @@
 #include <math.h>
 
+#include "animation/skeleton/rig_mass.h"
 #include "gait_stage.h"
 #include "harness.h"
 #include "math/quat.h"
 #include "quadruped.h"
-#include "skeleton/rig_mass.h"
 
 /* A quadruped all of whose mass is `ahead` of the middle between its feet, m. */
 static void begin(gait_stage *stage, float ahead) {

@@ -1,4 +1,4 @@
-#include "solvers/tetrahedron_forces.h"
+#include "soft/solvers/tetrahedron_forces.h"
 
 #include <stdlib.h>
 
@@ -9,8 +9,8 @@
 #include "random.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 static lattice_box box;
 static scene s;

@@ -1,4 +1,4 @@
-#include "solvers/tetrahedron_sweep.h"
+#include "soft/solvers/tetrahedron_sweep.h"
 
 #include <stdlib.h>
 
@@ -9,9 +9,9 @@
 #include "random.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "solvers/router.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "soft/solvers/router.h"
+#include "state/state.h"
+#include "state/world.h"
 
 static lattice_box box;
 static scene s;

@@ -7,8 +7,8 @@
 #include "momentum.h"
 #include "scene_state.h"
 #include "scenes.h"
-#include "world/state.h"
-#include "world/world.h"
+#include "state/state.h"
+#include "state/world.h"
 
 enum {
   CELLS = 8,

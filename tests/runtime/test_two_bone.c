@@ -1,6 +1,6 @@
-#include "ik/two_bone.h"
+#include "animation/ik/two_bone.h"
 
-#include "ik/ik.h"
+#include "animation/ik/ik.h"
 
 #include <math.h>
 

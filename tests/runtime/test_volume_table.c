@@ -2,7 +2,7 @@
 
 #include "harness.h"
 #include "scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 static scene section(sbf_pressure_mode mode) {
   scene s = scene_begin();

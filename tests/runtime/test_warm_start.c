@@ -2,11 +2,11 @@
  * these are of faces or of rims. */
 #include <stdlib.h>
 
-#include "body_contact/body_contacts.h"
 #include "collision_scenes.h"
+#include "coupling/body_contact/body_contacts.h"
 #include "harness.h"
 #include "rigid_scenes.h"
-#include "world/world.h"
+#include "state/world.h"
 
 enum { CELLS = 16 };
 
@@ -27,7 +27,7 @@ static void start(scene *s) {
 typedef enum kind { FACES, FACES_OF_THE_OTHER, RIMS, KINDS } kind;
 
 static kind kind_of(const sbri_contact *t) {
-  if (t->feature >> 31) return RIMS; /* body_contact/edge_contacts.c */
+  if (t->feature >> 31) return RIMS; /* coupling/body_contact/edge_contacts.c */
   return t->body_ids[0] < t->body_ids[1] ? FACES : FACES_OF_THE_OTHER;
 }
 

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "collide/triangle.h"
+#include "shapes/triangle.h"
 
 static double dot(sbf_vec3 a, sbf_vec3 b) {
   return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;

@@ -28,7 +28,7 @@ START_TEST(test_flat)
 }
 END_TEST
 
-START_TEST(test_left_out)
+START_TEST(test_unsupported_features)
 {
   rules_expect(BODY_OF(TETRA_POINTS " 1 1 1", "4", "0 1 2 3", ""), "REGION_POINT_LEFT_OUT " REGIONS);
   rules_expect(BODY_OF(TETRA_POINTS " 1 1 1", "4", "0 1 2 3", PINS("", "4", "")), "");
@@ -44,4 +44,5 @@ START_TEST(test_empty_levels)
 }
 END_TEST
 
-RULES_MAIN("region_rules", test_good_regions, test_repeated, test_flat, test_left_out, test_empty_levels)
+RULES_MAIN(
+    "region_rules", test_good_regions, test_repeated, test_flat, test_unsupported_features, test_empty_levels)

@@ -417,7 +417,7 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
   w.embedders = sbfi_arena_allocate(scratch, target_count, sizeof *w.embedders);
   bool good = w.embedders && index_bodies(&w);
   for (uint32_t t = 0; good && t < target_count; t++)
-    good = sbfi_progress_say(progress, 0.2 * t / target_count) && reserve(&w, targets[t].level) &&
+    good = sbfi_progress_report(progress, 0.2 * t / target_count) && reserve(&w, targets[t].level) &&
            sbfi_embedder_make(&w.embedders[t], SBFI_EMBEDS_VERTICES, &asset->soft_bodies.at[targets[t].body],
                targets[t].level, targets[t].interior, targets[t].frame, scratch);
   good = good && embed_surfaces(&w, sbfi_progress_part(progress, 0.2, 0.4));

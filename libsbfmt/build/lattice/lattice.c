@@ -95,7 +95,7 @@ static sbfi_lattice_outcome stuff_without_hinges(sbfi_lattice *lattice, const sb
       return SBFI_LATTICE_NO_MEMORY;
     if (count == 0) break;
     lattice->forced_count += count;
-    if (!sbfi_progress_say(progress, 0.6 + 0.1 * round)) return SBFI_LATTICE_CANCELLED;
+    if (!sbfi_progress_report(progress, 0.6 + 0.1 * round)) return SBFI_LATTICE_CANCELLED;
   }
   return SBFI_LATTICE_MADE;
 }
@@ -116,19 +116,19 @@ static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *wind
   uint8_t *cut = sbfi_arena_allocate(scratch, grid.node_count, 1);
   uint8_t *inside = sbfi_arena_allocate(scratch, grid.node_count, 1);
   if (!cut || !inside) return SBFI_LATTICE_NO_MEMORY;
-  if (!sbfi_progress_say(progress, 0)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_report(progress, 0)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_cross(&grid, soup, cut, crossings)) return SBFI_LATTICE_NO_MEMORY;
-  if (!sbfi_progress_say(progress, 0.1)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_report(progress, 0.1)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_signs(&grid, winding, cut, inside, scratch)) return SBFI_LATTICE_NO_MEMORY;
-  if (!sbfi_progress_say(progress, 0.4)) return SBFI_LATTICE_CANCELLED;
-  if (!sbfi_lattice_keep_limbs(&grid, winding, crossings, inside, &lattice->forced_count, scratch))
+  if (!sbfi_progress_report(progress, 0.4)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_lattice_preserve_limbs(&grid, winding, crossings, inside, &lattice->forced_count, scratch))
     return SBFI_LATTICE_NO_MEMORY;
-  if (!sbfi_progress_say(progress, 0.6)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_report(progress, 0.6)) return SBFI_LATTICE_CANCELLED;
   sbfi_lattice_outcome outcome =
       stuff_without_hinges(lattice, &grid, winding, crossings, inside, progress, scratch);
   if (outcome != SBFI_LATTICE_MADE) return outcome;
   if (!keep(lattice, arena)) return SBFI_LATTICE_NO_MEMORY;
-  return sbfi_progress_say(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
+  return sbfi_progress_report(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
 }
 
 sbfi_lattice_outcome sbfi_lattice_make(sbfi_lattice *lattice, const sbfi_winding *winding, double cell,
@@ -227,5 +227,5 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
   bool good = keep(lattice, arena);
   sbfi_arena_free(&kept_in);
   if (!good) return SBFI_LATTICE_NO_MEMORY;
-  return sbfi_progress_say(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
+  return sbfi_progress_report(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
 }

@@ -100,7 +100,7 @@ static bool add_slipped(candidates *c, const sbfi_lattice_grid *grid, const sbfi
   return true;
 }
 
-bool sbfi_lattice_keep_limbs(const sbfi_lattice_grid *grid, const sbfi_winding *winding,
+bool sbfi_lattice_preserve_limbs(const sbfi_lattice_grid *grid, const sbfi_winding *winding,
     const sbfi_array *crossings, uint8_t *inside, uint32_t *count, sbfi_arena *scratch) {
   candidates c = {inside, sbfi_arena_allocate(scratch, crossings->count + 1, sizeof(uint32_t)), 0};
   *count = 0;

@@ -15,7 +15,7 @@ enum { SBFI_LATTICE_INSIDE = 1, SBFI_LATTICE_FORCED = 2 };
  * keep away from them. So a limb keeps a row of nodes, and with it two elements across, at the price of being
  * thicker than it should be; ridges, which stand on nodes well inside, are left as they are. `crossings` are
  * those of sbfi_lattice_cross. `*count` receives how many nodes were forced. False where memory runs out. */
-bool sbfi_lattice_keep_limbs(const sbfi_lattice_grid *grid, const sbfi_winding *winding,
+bool sbfi_lattice_preserve_limbs(const sbfi_lattice_grid *grid, const sbfi_winding *winding,
     const sbfi_array *crossings, uint8_t *inside, uint32_t *count, sbfi_arena *scratch);
 
 #endif

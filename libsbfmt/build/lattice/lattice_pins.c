@@ -207,7 +207,7 @@ static bool make(work *w, int32_t derivation) {
   return sbfi_level_pins_make(w->level, &rest, derivation, w->asset, core, core_count, w->scratch);
 }
 
-bool sbfi_lattice_pins_carry(sbf_level *level, const sbf_soft_body *body, uint8_t *taken, int32_t derivation,
+bool sbfi_lattice_pins_map(sbf_level *level, const sbf_soft_body *body, uint8_t *taken, int32_t derivation,
     sbf_asset *asset, sbfi_arena *scratch) {
   work w = {.level = level, .body = body, .asset = asset, .scratch = scratch};
   sbf_pin_set *sets = sbf_asset_allocate(asset, (size_t)body->pins.count + 1, sizeof *sets);

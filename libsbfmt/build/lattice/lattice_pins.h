@@ -21,7 +21,7 @@ bool sbfi_lattice_pins_make(
 
 /* The first of these alone: the level's pins are the body's, less those that hold nothing; `taken` (level
  * points) receives which points they have. False where memory runs out. */
-bool sbfi_lattice_pins_carry(sbf_level *level, const sbf_soft_body *body, uint8_t *taken, int32_t derivation,
+bool sbfi_lattice_pins_map(sbf_level *level, const sbf_soft_body *body, uint8_t *taken, int32_t derivation,
     sbf_asset *asset, sbfi_arena *scratch);
 
 #endif

@@ -46,12 +46,12 @@ static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use 
   if (r->statics.turns) return SBFI_LATTICE_MADE;
   if (!sbfi_linear_statics_make_direct(&linear, &r->statics.network, scratch)) return SBFI_LATTICE_NO_MEMORY;
   for (uint32_t l = 0; l < loads; l++) {
-    if (!sbfi_progress_say(use->progress, 0.5 + 0.2 * l / loads)) return SBFI_LATTICE_CANCELLED;
+    if (!sbfi_progress_report(use->progress, 0.5 + 0.2 * l / loads)) return SBFI_LATTICE_CANCELLED;
     r->gives[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
-    if (!r->gives[l] ||
-        !sbfi_level_lean(&r->statics, &linear, l, lean_fraction, r->gives[l], &r->frequencies[l], scratch))
+    if (!r->gives[l] || !sbfi_level_solve_linear(
+                            &r->statics, &linear, l, lean_fraction, r->gives[l], &r->frequencies[l], scratch))
       return SBFI_LATTICE_NO_MEMORY;
-    r->yieldings[l] = sbfi_level_yielding(&r->statics, l, r->gives[l]);
+    r->yieldings[l] = sbfi_level_mean_displacement(&r->statics, l, r->gives[l]);
     r->sound |= r->yieldings[l] > 0 && r->frequencies[l] > 0;
   }
   for (uint32_t k = 0; k < SBFI_TWISTS && r->sound && use->twists; k++)
@@ -83,7 +83,7 @@ static sbfi_lattice_outcome take(sbfi_reference *r, const sbf_soft_body *body, c
                                                                                 : SBFI_LATTICE_NO_MEMORY;
 }
 
-sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
+sbfi_lattice_outcome sbfi_reference_from_level(sbfi_reference *reference, const sbf_soft_body *body,
     const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset,
     const sbfi_reference_use *use, const sbf_allocator *allocator) {
   sbfi_arena scratch;
@@ -157,10 +157,10 @@ static bool find_yieldings(work *w) {
   size_t numbers = 3 * (size_t)w->body->surface.positions.count + 1;
   for (uint32_t l = 0; l < w->statics.load_count; l++) {
     w->gives[l] = sbfi_arena_allocate(w->scratch, numbers, sizeof(double));
-    if (!w->gives[l] || !sbfi_level_lean(&w->statics, &w->linear, l, lean_fraction, w->gives[l],
+    if (!w->gives[l] || !sbfi_level_solve_linear(&w->statics, &w->linear, l, lean_fraction, w->gives[l],
                             &w->frequencies[l], w->scratch))
       return false;
-    w->yieldings[l] = sbfi_level_yielding(&w->statics, l, w->gives[l]);
+    w->yieldings[l] = sbfi_level_mean_displacement(&w->statics, l, w->gives[l]);
   }
   return true;
 }

@@ -58,7 +58,7 @@ sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_so
     const sbf_allocator *allocator);
 
 /* The same for an existing level, which must outlive the reference; `interior` as for an embedder. */
-sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
+sbfi_lattice_outcome sbfi_reference_from_level(sbfi_reference *reference, const sbf_soft_body *body,
     const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset,
     const sbfi_reference_use *use, const sbf_allocator *allocator);
 

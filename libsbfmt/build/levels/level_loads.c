@@ -247,8 +247,8 @@ bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, do
   return true;
 }
 
-bool sbfi_level_lean(const sbfi_level_statics *s, sbfi_linear_statics *linear, uint32_t load, double fraction,
-    double *displacements, double *frequency, sbfi_arena *scratch) {
+bool sbfi_level_solve_linear(const sbfi_level_statics *s, sbfi_linear_statics *linear, uint32_t load,
+    double fraction, double *displacements, double *frequency, sbfi_arena *scratch) {
   size_t numbers = 3 * (size_t)s->network.point_count;
   double *forces = sbfi_arena_allocate(scratch, numbers + 1, sizeof *forces);
   double *moved = sbfi_arena_allocate(scratch, numbers + 1, sizeof *moved);
@@ -277,7 +277,7 @@ bool sbfi_level_twist_frequency(const sbfi_level_statics *s, sbfi_linear_statics
   return true;
 }
 
-double sbfi_level_yielding(const sbfi_level_statics *s, uint32_t load, const double *displacements) {
+double sbfi_level_mean_displacement(const sbfi_level_statics *s, uint32_t load, const double *displacements) {
   const sbf_vec3_list *surface = &s->body->surface.positions;
   double sum = 0, area = 0;
   for (uint32_t i = 0; i < surface->count; i++) {

@@ -49,7 +49,7 @@ bool sbfi_level_give(const sbfi_level_statics *statics, uint32_t load, double si
 /* The same for small strains under 1 m/s^2, to relative accuracy `fraction`. `*frequency` rad/s is
  * Rayleigh's quotient of the displacements: slightly above the lowest mode's, if the load excites that
  * mode. */
-bool sbfi_level_lean(const sbfi_level_statics *statics, sbfi_linear_statics *linear, uint32_t load,
+bool sbfi_level_solve_linear(const sbfi_level_statics *statics, sbfi_linear_statics *linear, uint32_t load,
     double fraction, double *displacements, double *frequency, sbfi_arena *scratch);
 
 /* Displacements of the surface's points (3 x surface points, m) from the level's (3 x level points, m);
@@ -58,6 +58,7 @@ void sbfi_level_get_surface_displacements(
     const sbfi_level_statics *statics, const double *moved, double *displacements);
 
 /* Mean displacement of the surface along the load, m. */
-double sbfi_level_yielding(const sbfi_level_statics *statics, uint32_t load, const double *displacements);
+double sbfi_level_mean_displacement(
+    const sbfi_level_statics *statics, uint32_t load, const double *displacements);
 
 #endif

@@ -62,7 +62,7 @@ static sbfi_lattice_outcome make_reference(sbfi_level_set *l, uint32_t elements)
  * is too large, unless it is the finest. */
 static sbfi_lattice_outcome measure(
     sbfi_level_set *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
-  if (!sbfi_progress_say(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_report(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_level_calibrate(level, l->body, interior, &l->reference, l->recipe->calibrate, l->recipe->tick,
           l->asset, calibration, sbfi_progress_part(l->progress, 0.9, 1), l->allocator))
     return SBFI_LATTICE_NO_MEMORY;
@@ -134,7 +134,7 @@ static sbfi_lattice_outcome take_finest(sbfi_level_set *l, const sbfi_interior_m
   l->has_reference = true;
   const sbfi_reference_use use = use_of(l);
   sbfi_lattice_outcome outcome =
-      sbfi_reference_take(&l->reference, l->body, level, interior, l->asset, &use, l->allocator);
+      sbfi_reference_from_level(&l->reference, l->body, level, interior, l->asset, &use, l->allocator);
   if (outcome == SBFI_LATTICE_MADE)
     level->simulation.cost =
         (float)fmin(sbfi_level_cost(&l->reference.statics, l->recipe->tick, &l->reference.arena), FLT_MAX);

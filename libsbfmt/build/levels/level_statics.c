@@ -152,7 +152,7 @@ bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *b
     return false;
   double loose_kg;
   if (!sbfi_loose_pieces_hold(&statics->network, statics->is_pinned, masses, &loose_kg, arena) ||
-      !sbfi_pieces_turn(&statics->network, statics->size, &statics->turns, arena))
+      !sbfi_pieces_can_rotate(&statics->network, statics->size, &statics->turns, arena))
     return false;
   statics->mass -= loose_kg;
   if (!statics->is_pinned && !add_tethers(statics, arena)) return false;

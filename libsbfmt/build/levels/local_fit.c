@@ -39,7 +39,7 @@ bool sbfi_push_works_make(sbfi_push_works *works, const sbfi_level_statics *s, s
   if (!forces || !moved || !works->fractions || !sbfi_level_pushes_make(&works->pushes, s, arena))
     return false;
   for (uint32_t push = 0; push < SBFI_PUSHES; push++) {
-    if (!sbfi_progress_say(progress, (double)push / SBFI_PUSHES)) return false;
+    if (!sbfi_progress_report(progress, (double)push / SBFI_PUSHES)) return false;
     memset(moved, 0, numbers * sizeof *moved);
     sbfi_level_push(s, &works->pushes, push, forces);
     sbfi_linear_statics_solve(linear, forces, push_fraction, moved);
@@ -136,7 +136,7 @@ bool sbfi_local_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, co
   for (int round = 0; round < ROUNDS; round++) {
     memset(w.own, 0, n->point_count * sizeof *w.own);
     for (uint32_t push = 0; push < SBFI_PUSHES; push++) {
-      if (!sbfi_progress_say(progress, (round + (double)push / SBFI_PUSHES) / ROUNDS)) return false;
+      if (!sbfi_progress_report(progress, (round + (double)push / SBFI_PUSHES) / ROUNDS)) return false;
       if (!(works->totals[push] > 0)) continue;
       sbfi_level_push(statics, &works->pushes, push, w.forces);
       sbfi_linear_statics_solve(linear, w.forces, push_fraction, w.moved[push]);

@@ -42,7 +42,8 @@ bool sbfi_loose_pieces_hold(
   return true;
 }
 
-bool sbfi_pieces_turn(const sbf_spring_network *network, double size_m, bool *turn, sbfi_arena *scratch) {
+bool sbfi_pieces_can_rotate(
+    const sbf_spring_network *network, double size_m, bool *turn, sbfi_arena *scratch) {
   uint32_t points = network->point_count;
   uint32_t *parents = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *parents);
   uint32_t *ends = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *ends);

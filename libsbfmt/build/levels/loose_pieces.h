@@ -15,6 +15,7 @@ bool sbfi_loose_pieces_hold(
 /* Whether a piece with free points is pinned only at one point or along one line, within 1e-4 of `size_m`:
  * it can rotate about that, so most loads have no solution. Ignores unpinned pieces. False if memory runs
  * out. */
-bool sbfi_pieces_turn(const sbf_spring_network *network, double size_m, bool *turn, sbfi_arena *scratch);
+bool sbfi_pieces_can_rotate(
+    const sbf_spring_network *network, double size_m, bool *turn, sbfi_arena *scratch);
 
 #endif

@@ -57,8 +57,9 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
     double sums[3] = {0}, frequency;
     if (!w->gives[load]) continue;
     bool is_long = load == 0 || s->network.point_count > MAX_TRIED_POINTS;
-    if (is_long && !sbfi_progress_say(w->progress, 0)) return false;
-    if (!sbfi_level_lean(s, w->linear, load, solve_fraction, w->moved, &frequency, w->scratch)) return false;
+    if (is_long && !sbfi_progress_report(w->progress, 0)) return false;
+    if (!sbfi_level_solve_linear(s, w->linear, load, solve_fraction, w->moved, &frequency, w->scratch))
+      return false;
     for (size_t i = 0; i < 3 * (size_t)s->body->surface.positions.count; i++) {
       double area = s->areas[i / 3];
       sums[0] += area * w->moved[i] * w->moved[i];

@@ -163,7 +163,7 @@ static double evaluate(work *w, bool gradient) {
   for (uint32_t load = 0; load < load_count(w); load++) {
     /* With few points a round is short. */
     bool is_long = load == 0 || w->statics->network.point_count > POINTS_FOR_ALL;
-    if (is_long && !sbfi_progress_say(w->progress, (double)load / load_count(w))) return -1;
+    if (is_long && !sbfi_progress_report(w->progress, (double)load / load_count(w))) return -1;
     double left = mismatch(w, load);
     if (left < 0) continue;
     sum += left;

@@ -14,7 +14,7 @@
 
 /* Target displacements of a level (3 x surface points) m, NULL: the load is ignored. */
 typedef struct sbfi_wanted {
-  const double *const *gives;      /* under the small loads of 1 m/s^2, as in sbfi_level_lean */
+  const double *const *gives;      /* under the small loads of 1 m/s^2, as in sbfi_level_solve_linear */
   const sbfi_level_pushes *pushes; /* NULL: none */
   const double *const *pushed;     /* (SBFI_PUSHES) under each push */
 } sbfi_wanted;

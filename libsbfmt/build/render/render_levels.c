@@ -118,7 +118,7 @@ static bool make_levels(leveller *l, sbf_render_mesh *mesh, const sbfi_render_re
     uint32_t target = full >> (n + 1);
     simplified made;
     if (target < FEWEST_TRIANGLES) break;
-    if (!sbfi_progress_say(part, 0)) return false;
+    if (!sbfi_progress_report(part, 0)) return false;
     if (!simplify_by_rules(l, target, &made)) return false;
     if (made.triangle_count < FEWEST_TRIANGLES || made.triangle_count > MIN_STEP * before) break;
     sbf_render_level_init(level);

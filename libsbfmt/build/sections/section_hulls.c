@@ -89,7 +89,7 @@ static bool points_of_bone(const sbf_asset *asset, int32_t bone, sbf_vec3_list *
 static bool fill_authored(hull_list *list, sbf_asset *asset, int32_t derivation, sbfi_reporter *reporter,
     uint32_t *made, sbfi_progress progress, sbfi_arena *scratch) {
   for (uint32_t i = 0; i < list->authored_count; i++) {
-    if (!sbfi_progress_say(progress, (double)i / list->authored_count)) return false;
+    if (!sbfi_progress_report(progress, (double)i / list->authored_count)) return false;
     sbf_rigid_body *body = &list->at[i];
     sbf_vec3_list points;
     sbf_polygon_mesh hull;
@@ -108,7 +108,7 @@ static bool fill_authored(hull_list *list, sbf_asset *asset, int32_t derivation,
 static bool make_own(hull_list *list, sbf_asset *asset, int32_t derivation, sbfi_ids *ids,
     sbfi_reporter *reporter, uint32_t *made, sbfi_progress progress, sbfi_arena *scratch) {
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
-    if (!sbfi_progress_say(progress, (double)b / asset->soft_bodies.count)) return false;
+    if (!sbfi_progress_report(progress, (double)b / asset->soft_bodies.count)) return false;
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
     sbf_polygon_mesh hull;
     if (body->bone == SBF_NONE || has_authored_body(list, body->bone) || body->surface.positions.count == 0)

@@ -99,7 +99,7 @@ static bool hold_painted(work *w) {
   w->pinned = sbfi_arena_allocate(w->scratch, w->point_count, 1);
   w->taken = sbfi_arena_allocate(w->scratch, w->point_count, 1);
   if (!w->pinned || !w->taken) return false;
-  if (!sbfi_lattice_pins_carry(w->level, w->body, w->taken, w->recipe->derivation, w->asset, w->scratch))
+  if (!sbfi_lattice_pins_map(w->level, w->body, w->taken, w->recipe->derivation, w->asset, w->scratch))
     return false;
   if (w->level->pins.count) sbf_level_pinned_points(w->level, w->pinned);
   for (uint32_t i = 0; i < w->level->pins.count; i++) w->counts->pins += w->level->pins.at[i].points.count;

@@ -188,7 +188,7 @@ static bool make_bodies(work *w, double overlap_m, sbfi_progress progress) {
     if (w->labels[p] != SBFI_NO_INDEX) used[w->labels[p]] = 1;
   for (uint32_t b = 0; b < bones; b++) {
     if (!used[b] || w->rigid[b]) continue;
-    if (!sbfi_progress_say(progress, (double)b / bones)) return false;
+    if (!sbfi_progress_report(progress, (double)b / bones)) return false;
     if (!make_body(w, &cutter, b, &w->made->bodies[w->made->count++])) return false;
   }
   return make_rigid_parts(w, &cutter, used);
@@ -500,5 +500,5 @@ bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m,
   if (!make_bodies(&w, overlap_m, sbfi_progress_part(progress, 0.2, 0.6))) return false;
   report_guesses(&w);
   if (!smooth_blends(&w)) return false;
-  return sbfi_progress_say(progress, 0.8) && make_all_blends(&w) && measure_reaches(&w);
+  return sbfi_progress_report(progress, 0.8) && make_all_blends(&w) && measure_reaches(&w);
 }

@@ -255,7 +255,7 @@ bool sbfi_springs_lattice(sbfi_lattice_interior *interior, const sbf_polygon_mes
   for (int halving = 0; good && w.count == 0 && halving <= MAX_HALVINGS; halving++) {
     if (halving > 0) interior->cell /= 2;
     crossings.count = 0;
-    good = sbfi_progress_say(progress, 0.04 * halving);
+    good = sbfi_progress_report(progress, 0.04 * halving);
     if (!sbfi_lattice_grid_fit(&w.grid, soup.low, soup.high, interior->cell)) break;
     good = good && find_nodes(&w, &winding, &crossings);
     if (cell > 0) break;

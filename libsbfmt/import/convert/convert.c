@@ -191,7 +191,7 @@ static void check_size(sbfi_conversion *c) {
 static sbf_status read_scene(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
   sbf_status status = sbfi_scene_read(scene, path, options, error);
-  if (status != SBF_OK || sbfi_scene_take_bind_pose(scene)) return status;
+  if (status != SBF_OK || sbfi_scene_apply_bind_pose(scene)) return status;
   status = sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", path);
   return sbfi_scene_fail(scene, error, status);
 }
@@ -292,7 +292,7 @@ sbf_status sbf_convert(
   sbf_diagnostic unseen;
   if (!error) error = &unseen;
   *asset = NULL;
-  if (!sbfi_options_take(&taken, sizeof taken, options))
+  if (!sbfi_options_copy(&taken, sizeof taken, options))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
   options = &taken;
   if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))

@@ -1,7 +1,7 @@
 /* Rotates the asset so that the character faces +Z. */
 #include "import/convert/conversion.h"
 #include "import/gait/locomotion.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 /* These functions undo a rotation of `quarters` quarter turns about +Y. */
 static void rotate_points(uint32_t quarters, const sbf_vec3_list list) {
@@ -15,7 +15,7 @@ static void rotate_bone(uint32_t quarters, const sbf_bone *bone) {
   static const double back[4][4] = {{0, 0, 0, 1}, {0, -h, 0, h}, {0, -1, 0, 0}, {0, h, 0, h}};
   sbf_quat *r = (sbf_quat *)(uintptr_t)&bone->rotation;
   double q[4] = {(double)r->x, (double)r->y, (double)r->z, (double)r->w};
-  sbfi_turn_product(back[quarters], q, q);
+  sbfi_quatd_multiply(back[quarters], q, q);
   *r = (sbf_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
   rotate_points(quarters, (sbf_vec3_list){&bone->head, 1});
 }

@@ -59,20 +59,20 @@ static bool is_limb(const char *word) {
   return is_word(word, "arm*") || is_word(word, "leg*");
 }
 
-sbfi_name_says sbfi_words_of_name(const char *name) {
-  sbfi_name_says says = SBFI_SAYS_NOTHING;
+sbfi_name_hint sbfi_words_of_name(const char *name) {
+  sbfi_name_hint says = SBFI_NAME_HINT_NONE;
   bool lower = false, fore = false;
   char word[MAX_WORD];
   while (name && next_word(&name, word)) {
-    sbfi_name_says one = is_among(word, machine_words) ? SBFI_SAYS_MACHINE
-                         : is_among(word, prop_words)  ? SBFI_SAYS_PROP
-                         : is_among(word, face_words)  ? SBFI_SAYS_FACE
+    sbfi_name_hint one = is_among(word, machine_words) ? SBFI_NAME_HINT_MACHINE
+                         : is_among(word, prop_words)  ? SBFI_NAME_HINT_PROP
+                         : is_among(word, face_words)  ? SBFI_NAME_HINT_FACE
                          : is_among(word, limb_words) || (lower && is_limb(word)) ||
                                  is_word(word, "lowerarm*") || is_word(word, "lowerleg*") ||
                                  (fore && is_word(word, "arm*"))
-                             ? SBFI_SAYS_LIMB
-                         : is_among(word, soft_words) ? SBFI_SAYS_SOFT
-                                                      : SBFI_SAYS_NOTHING;
+                             ? SBFI_NAME_HINT_LIMB
+                         : is_among(word, soft_words) ? SBFI_NAME_HINT_SOFT
+                                                      : SBFI_NAME_HINT_NONE;
     if (one > says) says = one;
     fore = is_word(word, "fore");
     lower = is_word(word, "lower") || is_word(word, "low");

@@ -122,7 +122,7 @@ static bool measure_vertices(work *w) {
   for (uint32_t m = 0; m < w->asset->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &w->asset->render_meshes.at[m];
     if (!mesh->skin) continue;
-    bool all_hard = sbfi_words_of_name(mesh->name) >= SBFI_SAYS_PROP;
+    bool all_hard = sbfi_words_of_name(mesh->name) >= SBFI_NAME_HINT_PROP;
     const uint32_t *bones = sbfi_main_bones(mesh, &w->c->scratch), *points = mesh->mesh.polygon_points.at;
     if (!bones) return false;
     for (uint32_t v = 0; v < mesh->skin->influence_counts.count; v++)
@@ -175,7 +175,8 @@ static bool is_lower_leg(const work *w, int32_t bone) {
 
 static bool has_face(const sbf_asset *asset, int32_t bone) {
   for (uint32_t b = (uint32_t)bone + 1; b < asset->bones.count; b++)
-    if (asset->bones.at[b].parent == bone && sbfi_words_of_name(asset->bones.at[b].name) == SBFI_SAYS_FACE)
+    if (asset->bones.at[b].parent == bone &&
+        sbfi_words_of_name(asset->bones.at[b].name) == SBFI_NAME_HINT_FACE)
       return true;
   return false;
 }
@@ -188,12 +189,12 @@ static bool is_face(const sbf_asset *asset, int32_t bone) {
 }
 
 /* Bones of a prop move their section as one piece. */
-static sbfi_name_says name_hint(const sbf_asset *asset, int32_t bone) {
-  sbfi_name_says says = sbfi_words_of_name(asset->bones.at[bone].name);
+static sbfi_name_hint name_hint(const sbf_asset *asset, int32_t bone) {
+  sbfi_name_hint says = sbfi_words_of_name(asset->bones.at[bone].name);
   for (int32_t b = asset->bones.at[bone].parent; b != SBF_NONE; b = asset->bones.at[b].parent) {
-    sbfi_name_says above = sbfi_words_of_name(asset->bones.at[b].name);
-    if (above == SBFI_SAYS_PROP || above == SBFI_SAYS_FACE) says = above;
-    if (above == SBFI_SAYS_LIMB && says != SBFI_SAYS_PROP) says = above;
+    sbfi_name_hint above = sbfi_words_of_name(asset->bones.at[b].name);
+    if (above == SBFI_NAME_HINT_PROP || above == SBFI_NAME_HINT_FACE) says = above;
+    if (above == SBFI_NAME_HINT_LIMB && says != SBFI_NAME_HINT_PROP) says = above;
   }
   return says;
 }
@@ -225,21 +226,21 @@ static void join_twins(const work *w) {
 
 static reason by_kind(const work *w, uint32_t bone) {
   const sbf_asset *asset = w->asset;
-  sbfi_name_says says = name_hint(asset, (int32_t)bone);
+  sbfi_name_hint says = name_hint(asset, (int32_t)bone);
   const part *p = &w->parts[bone];
-  if (says == SBFI_SAYS_PROP || says == SBFI_SAYS_MACHINE) return PROP;
+  if (says == SBFI_NAME_HINT_PROP || says == SBFI_NAME_HINT_MACHINE) return PROP;
   if (p->hard_area > HARD_FRACTION * p->area) return HARD_MATERIAL;
-  if (says == SBFI_SAYS_FACE || is_face(asset, (int32_t)bone)) return FACE;
-  if (says == SBFI_SAYS_LIMB || is_lower_leg(w, (int32_t)bone)) return LIMB;
+  if (says == SBFI_NAME_HINT_FACE || is_face(asset, (int32_t)bone)) return FACE;
+  if (says == SBFI_NAME_HINT_LIMB || is_lower_leg(w, (int32_t)bone)) return LIMB;
   if (p->area < MIN_AREA * w->area) return SMALL;
   return p->thickness < SHEET_THICKNESS * w->size ? THIN : SOFT;
 }
 
 static bool is_called_machine(const work *w) {
   if (w->asset->gaits.count && w->asset->gaits.at[0].kind == SBF_GAIT_KIND_ROLL) return true;
-  bool says = sbfi_words_of_name(w->asset->info.title) == SBFI_SAYS_MACHINE;
+  bool says = sbfi_words_of_name(w->asset->info.title) == SBFI_NAME_HINT_MACHINE;
   for (uint32_t m = 0; m < w->asset->render_meshes.count && !says; m++)
-    says = sbfi_words_of_name(w->asset->render_meshes.at[m].name) == SBFI_SAYS_MACHINE;
+    says = sbfi_words_of_name(w->asset->render_meshes.at[m].name) == SBFI_NAME_HINT_MACHINE;
   return says;
 }
 
@@ -256,7 +257,7 @@ static void check_thickness(work *w) {
   double bound = fmin(MIN_THICKNESS * w->size, SLENDER_THICKNESS * w->thickest);
   for (uint32_t b = 0; b < w->asset->bones.count; b++) {
     if (!is_part(w, b) || w->parts[b].why != SOFT) continue;
-    bool named = sbfi_words_of_name(w->asset->bones.at[b].name) == SBFI_SAYS_SOFT;
+    bool named = sbfi_words_of_name(w->asset->bones.at[b].name) == SBFI_NAME_HINT_SOFT;
     if (w->parts[b].thickness < (named ? NAMED_THICKNESS * bound : bound)) w->parts[b].why = THIN;
   }
 }

@@ -5,7 +5,7 @@
 #include "import/convert/skeleton_draft.h"
 #include "import/gait/gait_draft.h"
 #include "model/options.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 /* Bones in the form that the pass for detached bones needs. */
 static bool find_hangings(const sbfi_gait_draft *d, sbfi_arena *scratch, int32_t *hangs_on) {
@@ -17,7 +17,7 @@ static bool find_hangings(const sbfi_gait_draft *d, sbfi_arena *scratch, int32_t
     const double rotation[4] = {(double)bone->rotation.x, (double)bone->rotation.y, (double)bone->rotation.z,
         (double)bone->rotation.w};
     double along[3];
-    sbfi_turn_vector(rotation, (const double[3]){0, 1, 0}, along);
+    sbfi_quatd_rotate(rotation, (const double[3]){0, 1, 0}, along);
     s.bones[i] = (sbfi_bone_draft){.parent = bone->parent,
         .head = sbfi_d3_of(bone->head),
         .y = {along[0], along[1], along[2]},
@@ -47,7 +47,7 @@ static bool find_stance(
 sbf_status sbf_convert_stand(const sbf_asset *asset, const sbf_convert_options *options,
     sbf_convert_stance *stance, int32_t *hangs_on, sbf_diagnostic *error) {
   sbf_convert_options taken = {.struct_size = 0};
-  if (!sbfi_options_take(&taken, sizeof taken, options))
+  if (!sbfi_options_copy(&taken, sizeof taken, options))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
   sbf_convert_stance found = {.struct_size = stance->struct_size ? stance->struct_size : sizeof found};
   if (found.struct_size != sizeof found)

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "import/gait/rest_pose.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 static const double DEGREE = 0.017453292519943295;
 static const double ENOUGH = 30,
@@ -152,7 +152,7 @@ static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose
       cos(DOWN * DEGREE) * sin(AHEAD * DEGREE) + sin(AHEAD * DEGREE) * 0.5};
   double zero[3] = {0, 0, 0}, target[3];
   direction(zero, wanted, target);
-  sbfi_turn_between(upper, target, rotation);
+  sbfi_quatd_between(upper, target, rotation);
   set_turn(pose, arm->upper, rotation);
   double bent = 0;
   bool has_hand = arm->hand != SBF_NONE;
@@ -171,8 +171,8 @@ static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose
     const double hinge[3] = {
         target[0] * target[0] - 1, target[0] * target[1], target[0] * target[2]}; /* -X across the arm */
     direction(zero, hinge, ahead);
-    sbfi_turn_undo(rotation, undo);
-    sbfi_turn_vector(undo, ahead, axis);
+    sbfi_quatd_conjugate(rotation, undo);
+    sbfi_quatd_rotate(undo, ahead, axis);
     turn_about(axis, (ELBOW - bent) * DEGREE, bend);
     set_turn(pose, arm->lower, bend);
   }

@@ -62,8 +62,8 @@ static bool write_pose(
 
 static void key_of(const double rest[4], const double posed[4], double key[4]) {
   double undo[4];
-  sbfi_turn_undo(rest, undo);
-  sbfi_turn_product(undo, posed, key);
+  sbfi_quatd_conjugate(rest, undo);
+  sbfi_quatd_multiply(undo, posed, key);
 }
 
 /* Reads the first frame of a clip as rotations from rest. */
@@ -95,9 +95,9 @@ static void convert_to_bone_frames(const sbf_asset *a, const bool *turned, doubl
     const double rest[4] = {(double)q.x, (double)q.y, (double)q.z, (double)q.w};
     double undo[4];
     if (!turned[i]) continue;
-    sbfi_turn_undo(rest, undo);
-    sbfi_turn_product(undo, turns[i], turns[i]);
-    sbfi_turn_product(turns[i], rest, turns[i]);
+    sbfi_quatd_conjugate(rest, undo);
+    sbfi_quatd_multiply(undo, turns[i], turns[i]);
+    sbfi_quatd_multiply(turns[i], rest, turns[i]);
   }
 }
 
@@ -136,9 +136,9 @@ static void posed_rotation(const sbf_asset *a, const pose_work *pose, int32_t bo
     double above[4], local[4];
     posed_rotation(a, pose, parent, above);
     key_of(parent_rest, rest, local);
-    sbfi_turn_product(above, local, to);
+    sbfi_quatd_multiply(above, local, to);
   }
-  if (pose->turned[bone]) sbfi_turn_product(to, pose->turns[bone], to);
+  if (pose->turned[bone]) sbfi_quatd_multiply(to, pose->turns[bone], to);
 }
 
 static void swing(const sbf_asset *a, const pose_work *rest, int32_t bone, double angle, pose_work *to) {
@@ -146,9 +146,9 @@ static void swing(const sbf_asset *a, const pose_work *rest, int32_t bone, doubl
   if (bone == SBF_NONE) return;
   const double about[4] = {-sin(angle / 2), 0, 0, cos(angle / 2)}; /* moves a hanging bone forward */
   posed_rotation(a, rest, bone, posed);
-  sbfi_turn_undo(posed, undo);
-  sbfi_turn_product(undo, about, to->turns[bone]);
-  sbfi_turn_product(to->turns[bone], posed, to->turns[bone]);
+  sbfi_quatd_conjugate(posed, undo);
+  sbfi_quatd_multiply(undo, about, to->turns[bone]);
+  sbfi_quatd_multiply(to->turns[bone], posed, to->turns[bone]);
   to->turned[bone] = true;
 }
 

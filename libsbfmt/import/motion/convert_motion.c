@@ -34,7 +34,7 @@ static sbf_status read_motion(const char *file, const sbf_convert_options *optio
 sbf_status sbf_convert_motion(
     sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error) {
   sbf_convert_options taken = {.struct_size = 0};
-  if (!sbfi_options_take(&taken, sizeof taken, options))
+  if (!sbfi_options_copy(&taken, sizeof taken, options))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
   sbfi_reporter reporter = {taken.report, taken.user, 0, 0};
   sbf_asset *from = NULL;
@@ -43,7 +43,7 @@ sbf_status sbf_convert_motion(
         error, SBF_CODE_IMPORT_MOTION_NONE, "%s: there is no skeleton to move: give one with --rig", file);
   sbf_status status = read_motion(file, &taken, &reporter, &from, error);
   if (status != SBF_OK) return status;
-  status = sbfi_carry_clips(asset, from, file, taken.allocator, &reporter, error);
+  status = sbfi_retarget_clips(asset, from, file, taken.allocator, &reporter, error);
   sbf_asset_free(from);
   return status;
 }

@@ -23,10 +23,10 @@ typedef struct sbfi_paper_surface {
 } sbfi_paper_surface;
 
 /* A surface vertex embedded in a tetrahedron: weights of its first three nodes. */
-typedef struct sbfi_paper_carried {
+typedef struct sbfi_paper_embedding {
   uint32_t vertex, tetrahedron; /* ids */
   float weights[3];
-} sbfi_paper_carried;
+} sbfi_paper_embedding;
 
 typedef enum sbfi_paper_attribute {
   SBFI_PAPER_MASS,
@@ -45,7 +45,7 @@ typedef struct sbfi_paper_body {
   sbfi_array nodes;           /* uint32_t, ids, four per tetrahedron */
   sbfi_array tetrahedron_ids; /* uint32_t */
   sbfi_paper_surface surface;
-  sbfi_array carried; /* sbfi_paper_carried */
+  sbfi_array carried; /* sbfi_paper_embedding */
   float attributes[SBFI_PAPER_ATTRIBUTES];
   bool given[SBFI_PAPER_ATTRIBUTES];
 } sbfi_paper_body;

@@ -138,7 +138,7 @@ static sbf_status fill_embedding(sbfi_conversion *c, const sbfi_paper_body *from
   if (!sbfi_paper_table_make(c, &vertex_table, &from->surface.vertices.ids, "vertices") ||
       !sbfi_paper_table_make(c, &tetrahedron_table, &from->tetrahedron_ids, "tetrahedra"))
     return sbfi_paper_fault(c);
-  const sbfi_paper_carried *carried = from->carried.at;
+  const sbfi_paper_embedding *carried = from->carried.at;
   for (uint32_t i = 0; i < count; i++) {
     uint32_t index;
     if (!sbfi_paper_find(c, &vertex_table, carried[i].vertex, "vertices", &vertices[i]) ||

@@ -173,7 +173,7 @@ static bool read_node(paper_reader *r, attribute_list attributes) {
 
 static bool read_carried(paper_reader *r, attribute_list attributes) {
   static const char *const names[3] = {"v0", "v1", "v2"};
-  sbfi_paper_carried *carried = push(r, &r->body->carried);
+  sbfi_paper_embedding *carried = push(r, &r->body->carried);
   if (!carried || !read_id(r, attributes, "render_id", 0, &carried->vertex) ||
       !read_id(r, attributes, "tetr_id", 0, &carried->tetrahedron))
     return false;
@@ -225,7 +225,7 @@ static void init_body(sbfi_paper_body *body, const sbf_allocator *allocator) {
   sbfi_array_init(&body->tetrahedron_ids, allocator, sizeof(uint32_t));
   sbfi_array_init(&body->surface.sizes, allocator, sizeof(uint32_t));
   sbfi_array_init(&body->surface.corners, allocator, sizeof(sbfi_paper_corner));
-  sbfi_array_init(&body->carried, allocator, sizeof(sbfi_paper_carried));
+  sbfi_array_init(&body->carried, allocator, sizeof(sbfi_paper_embedding));
 }
 
 static void free_bodies(sbfi_array *bodies) {

@@ -45,7 +45,7 @@ static bool apply_pose(sbfi_rigging *r, const sbfi_pose_fit *f) {
 /* --- What was found ------------------------------------------------------------------------------------ */
 
 static double turn_of(const sbfi_pose_fit *f, uint32_t bone) {
-  return 2 * asin(fmin(0.5 * sbfi_d3_length(sbfi_pose_fit_turn_vector(f, bone)), 1));
+  return 2 * asin(fmin(0.5 * sbfi_d3_length(sbfi_pose_fit_rotation_vector(f, bone)), 1));
 }
 
 /* Lists the largest rotations first. */

@@ -9,7 +9,7 @@
 #include "import/rigging/similarity.h"
 #include "import/scene/trs.h"
 #include "mechanics/symmetric_eigen.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 /* Step between frames, s; it is longer if the limit of posed points needs it. Frames to search around, and
  * search steps. */
@@ -103,7 +103,7 @@ static void mix_turns(const sbf_quat *keys, uint32_t at, double t, double to[4])
   const sbf_quat a = keys[at], b = keys[t > 0 ? at + 1 : at];
   const double from[4] = {(double)a.x, (double)a.y, (double)a.z, (double)a.w};
   const double until[4] = {(double)b.x, (double)b.y, (double)b.z, (double)b.w};
-  sbfi_turn_mix(from, until, t, to);
+  sbfi_quatd_slerp(from, until, t, to);
 }
 
 static void pose_at(search *s, const sbfi_scene_clip *clip, double time) {

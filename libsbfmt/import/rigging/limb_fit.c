@@ -7,7 +7,7 @@
 
 #include "import/rigging/similarity.h"
 #include "motion/carried_motion.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 enum { DIRECTIONS = 300, MAX_SAMPLES = 8, ROUNDS = 24, DESCENTS = 3 };
 
@@ -161,7 +161,8 @@ static void turn(sbfi_limb_fit *f, uint32_t bone, const double rotation[4]) {
 }
 
 static void turn_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
-  sbfi_turn_between((const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
+  sbfi_quatd_between(
+      (const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
 
 /* Cost of a rotation itself. */
@@ -370,7 +371,7 @@ static void straighten_later(sbfi_limb_fit *f) {
       straighten(f, b);
 }
 
-void sbfi_limb_fit_take_motions(sbfi_limb_fit *f, sbfi_d3 offset) {
+void sbfi_limb_fit_update_lines(sbfi_limb_fit *f, sbfi_d3 offset) {
   for (uint32_t k = 0; k < f->posed.count; k++) {
     sbfi_bone_line *line = &f->posed.at[k];
     line->from = sbfi_similarity_apply(&f->motions[line->bone], line->from);

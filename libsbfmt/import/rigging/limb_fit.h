@@ -31,7 +31,7 @@ bool sbfi_limb_fit_begin(sbfi_limb_fit *f, const sbfi_rigging *r, const sbfi_bon
     const sbfi_body_core *core, sbfi_arena *arena);
 
 /* Updates the lines from the motions of their bones and the offset of the whole rig. */
-void sbfi_limb_fit_take_motions(sbfi_limb_fit *f, sbfi_d3 offset);
+void sbfi_limb_fit_update_lines(sbfi_limb_fit *f, sbfi_d3 offset);
 
 /* Rotates joints until no rotation is an improvement. */
 void sbfi_limb_fit_search(sbfi_limb_fit *f);

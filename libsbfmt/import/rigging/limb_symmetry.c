@@ -223,7 +223,7 @@ static sbfi_matrix motion_to_twin(
   sbfi_d3 own = direction_of(s, bone), other = direction_of(s, twin);
   memcpy(rotation, above, 4 * sizeof *rotation);
   if (sbfi_d3_length(own) > 0 && sbfi_d3_length(other) > 0)
-    sbfi_turn_between(
+    sbfi_quatd_between(
         (const double[3]){own.x, own.y, own.z}, (const double[3]){-other.x, other.y, other.z}, rotation);
   sbfi_matrix turn = sbfi_rotation_about(rotation, head), by = translation(sbfi_d3_sub(to, head));
   return sbfi_matrix_multiply(&by, &turn);
@@ -259,7 +259,7 @@ static bool take_both(const sbfi_limb_symmetry *s, double plane, int side, const
     f->is_turned[b] = turns_itself && !is_moved[b];
     is_moved[b] = is_moved[b] || turns_itself;
   }
-  sbfi_limb_fit_take_motions(f, half->offset);
+  sbfi_limb_fit_update_lines(f, half->offset);
   return true;
 }
 
@@ -280,7 +280,7 @@ bool sbfi_limb_symmetry_search(sbfi_limb_symmetry *s, double plane, int side, co
   }
   half->is_middle = middle;
   fold_core(s, plane, side, &half->core);
-  sbfi_limb_fit_take_motions(half, (sbfi_d3){0, 0, 0});
+  sbfi_limb_fit_update_lines(half, (sbfi_d3){0, 0, 0});
   sbfi_limb_fit_search(half);
   return take_both(s, plane, side, half, f, arena);
 }

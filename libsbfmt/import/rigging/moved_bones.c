@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "import/rigging/similarity.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 static void turn_quaternion(const sbfi_matrix *m, double to[4]) {
   double trace = m->at[0][0] + m->at[1][1] + m->at[2][2];
@@ -31,7 +31,7 @@ static void move_bones(const sbfi_matrix *motions, sbf_bone *bones, uint32_t cou
     sbf_quat *q = &bones[b].rotation;
     double turn[4], rotation[4] = {(double)q->x, (double)q->y, (double)q->z, (double)q->w};
     turn_quaternion(&motions[b], turn);
-    sbfi_turn_product(turn, rotation, rotation);
+    sbfi_quatd_multiply(turn, rotation, rotation);
     *q = (sbf_quat){(float)rotation[0], (float)rotation[1], (float)rotation[2], (float)rotation[3]};
     bones[b].head = sbfi_d3_rounded(sbfi_similarity_apply(&motions[b], sbfi_d3_of(bones[b].head)));
   }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "import/rigging/similarity.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 /* --- Samples ------------------------------------------------------------------------------------------- */
 
@@ -164,7 +164,7 @@ bool sbfi_pose_fit_hangs_on(const sbfi_pose_fit *f, uint32_t bone, uint32_t abov
   return up == (int32_t)above;
 }
 
-void sbfi_pose_fit_turn(sbfi_pose_fit *f, uint32_t bone, const double rotation[4]) {
+void sbfi_pose_fit_rotate(sbfi_pose_fit *f, uint32_t bone, const double rotation[4]) {
   sbfi_matrix turn = sbfi_rotation_about(rotation, sbfi_pose_fit_joint(f, bone));
   for (uint32_t b = bone; b < f->bone_count; b++)
     if (sbfi_pose_fit_hangs_on(f, b, bone)) f->motions[b] = sbfi_matrix_multiply(&turn, &f->motions[b]);
@@ -178,7 +178,7 @@ static sbfi_d3 vector_of(const sbfi_matrix *m) {
   return sbfi_d3_scale(axis, 1 / (2 * half));
 }
 
-sbfi_d3 sbfi_pose_fit_turn_vector(const sbfi_pose_fit *f, uint32_t bone) {
+sbfi_d3 sbfi_pose_fit_rotation_vector(const sbfi_pose_fit *f, uint32_t bone) {
   sbfi_matrix above, turn;
   if (f->bones[bone].parent == SBF_NONE) return vector_of(&f->motions[bone]);
   if (!sbfi_matrix_invert(&f->motions[f->bones[bone].parent], &above)) above = sbfi_matrix_identity();

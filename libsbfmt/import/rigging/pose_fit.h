@@ -45,7 +45,7 @@ bool sbfi_pose_fit_update(sbfi_pose_fit *f);
 bool sbfi_pose_fit_move_input(sbfi_pose_fit *f);
 
 /* Rotates a bone with its descendants about its joint. `rotation` is about the origin. */
-void sbfi_pose_fit_turn(sbfi_pose_fit *f, uint32_t bone, const double rotation[4]);
+void sbfi_pose_fit_rotate(sbfi_pose_fit *f, uint32_t bone, const double rotation[4]);
 sbfi_d3 sbfi_pose_fit_joint(const sbfi_pose_fit *f, uint32_t bone);
 bool sbfi_pose_fit_hangs_on(const sbfi_pose_fit *f, uint32_t bone, uint32_t above);
 
@@ -67,6 +67,6 @@ bool sbfi_pose_fit_joints(sbfi_pose_fit *f, double within, bool free_input);
 
 /* Rotation of a bone relative to its parent: axis in asset space, with a length of twice the sine of half
  * the angle. */
-sbfi_d3 sbfi_pose_fit_turn_vector(const sbfi_pose_fit *f, uint32_t bone);
+sbfi_d3 sbfi_pose_fit_rotation_vector(const sbfi_pose_fit *f, uint32_t bone);
 
 #endif

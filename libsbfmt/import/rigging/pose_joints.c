@@ -111,7 +111,7 @@ static void add_pulls(system *s, double within) {
 static void add_costs(system *s, double cost) {
   for (uint32_t b = 0; b < s->f->bone_count; b++) {
     if (!s->columns[b]) continue;
-    sbfi_d3 angles = sbfi_pose_fit_turn_vector(s->f, b);
+    sbfi_d3 angles = sbfi_pose_fit_rotation_vector(s->f, b);
     const double back[3] = {angles.x, angles.y, angles.z};
     for (uint32_t k = 0; k < 3; k++) {
       uint32_t row = s->columns[b] - 1 + k;
@@ -150,7 +150,7 @@ static void turn_bones(system *s) {
     double half = 0.5 * fmin(1, farthest / fmax(sbfi_d3_length((sbfi_d3){at[0], at[1], at[2]}), 1e-9));
     double w = 1 / sqrt(1 + half * half * (at[0] * at[0] + at[1] * at[1] + at[2] * at[2]));
     const double rotation[4] = {half * w * at[0], half * w * at[1], half * w * at[2], w};
-    sbfi_pose_fit_turn(s->f, b, rotation);
+    sbfi_pose_fit_rotate(s->f, b, rotation);
   }
 }
 

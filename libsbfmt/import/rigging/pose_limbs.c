@@ -4,7 +4,7 @@
 
 #include "import/rigging/pose_fit.h"
 #include "import/rigging/similarity.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 enum { DIRECTIONS = 600, LIMB_SAMPLES = 80 };
 
@@ -75,7 +75,7 @@ static bool take_limb(const search *s, uint32_t bone, limb *l) {
 
 static sbfi_d3 turned(const double rotation[4], sbfi_d3 v) {
   double to[3];
-  sbfi_turn_vector(rotation, (const double[3]){v.x, v.y, v.z}, to);
+  sbfi_quatd_rotate(rotation, (const double[3]){v.x, v.y, v.z}, to);
   return (sbfi_d3){to[0], to[1], to[2]};
 }
 
@@ -108,7 +108,8 @@ static double evaluate(const search *s, const limb *l, const double rotation[4])
 }
 
 static void turn_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
-  sbfi_turn_between((const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
+  sbfi_quatd_between(
+      (const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
 
 static void take_bare(search *s) {
@@ -152,7 +153,7 @@ bool sbfi_pose_search_limbs(sbfi_pose_fit *f) {
     if (f->bones[b].parent == SBF_NONE || !take_limb(s, b, l)) continue;
     take_bare(s);
     if (!find_turn(s, l, rotation)) continue;
-    sbfi_pose_fit_turn(f, b, rotation);
+    sbfi_pose_fit_rotate(f, b, rotation);
     if (!sbfi_pose_fit_update(f)) return false;
   }
   return true;

@@ -112,7 +112,7 @@ static bool has_weights(const sbfi_rigging *r, uint32_t mesh) {
   return false;
 }
 
-bool sbfi_rigged_scene_take(const sbfi_rigging *r) {
+bool sbfi_rigged_scene_build(const sbfi_rigging *r) {
   sbfi_conversion *c = r->c;
   const sbfi_scene *input = r->input.scene, *rig = r->rig.scene;
   uint32_t mesh_count = input->mesh_count, node_count = rig->node_count;

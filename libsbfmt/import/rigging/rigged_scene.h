@@ -6,6 +6,6 @@
 
 /* Builds it from `r` and stores it in the conversion, whose scratch owns the memory. Nodes of the rig keep
  * their indices. False if memory runs out. */
-bool sbfi_rigged_scene_take(const sbfi_rigging *r);
+bool sbfi_rigged_scene_build(const sbfi_rigging *r);
 
 #endif

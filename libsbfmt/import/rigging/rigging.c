@@ -439,7 +439,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   if (alike && !warn_of_another(r, mode)) return sbfi_convert_no_memory(c);
   warn_of_attached(r, mode);
   if (mode != MODE_NAMED && !sbfi_report_separated(r, &moved, alike)) return sbfi_convert_no_memory(c);
-  return sbfi_rigged_scene_take(r) ? SBF_OK : sbfi_convert_no_memory(c);
+  return sbfi_rigged_scene_build(r) ? SBF_OK : sbfi_convert_no_memory(c);
 }
 
 /* --weights where there is nothing to choose from. */

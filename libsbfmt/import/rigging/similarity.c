@@ -7,7 +7,7 @@
 #include "base/diagnostic.h"
 #include "import/scene/trs.h"
 #include "mechanics/symmetric_eigen.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 const sbfi_usual_unit sbfi_usual_units[SBFI_USUAL_UNITS] = {{1, "metres"}, {0.01, "centimetres"},
     {0.001, "millimetres"}, {0.0254, "inches"}, {0.3048, "feet"}, {0.1, "decimetres"}, {100, NULL},
@@ -221,7 +221,7 @@ sbfi_matrix sbfi_rotation_about(const double rotation[4], sbfi_d3 about) {
   sbfi_matrix m = sbfi_matrix_identity();
   for (int k = 0; k < 3; k++) {
     double to[3];
-    sbfi_turn_vector(rotation, (const double[3]){k == 0, k == 1, k == 2}, to);
+    sbfi_quatd_rotate(rotation, (const double[3]){k == 0, k == 1, k == 2}, to);
     for (int row = 0; row < 3; row++) m.at[row][k] = to[row];
   }
   sbfi_d3 moved = sbfi_d3_sub(about, sbfi_similarity_apply(&m, about));

@@ -153,7 +153,7 @@ static const char *format_of(sbfi_scene *scene, const char *path) {
   return format;
 }
 
-sbf_status sbfi_assimp_take(sbfi_scene *scene, const uint8_t *bytes, size_t size,
+sbf_status sbfi_assimp_parse(sbfi_scene *scene, const uint8_t *bytes, size_t size,
     const sbf_allocator *allocator, sbf_diagnostic *error) {
   sbfi_raw_scene raw;
   sbfi_arena scratch;
@@ -184,7 +184,8 @@ sbf_status sbfi_assimp_read(
   status = sbfi_process_run(arguments, &limits, options->allocator, &result, error);
   if (status) return status;
   status = check_end(&result, error);
-  if (!status) status = sbfi_assimp_take(scene, result.output, result.output_size, options->allocator, error);
+  if (!status)
+    status = sbfi_assimp_parse(scene, result.output, result.output_size, options->allocator, error);
   sbfi_process_result_free(&result);
   return status;
 }

@@ -10,7 +10,7 @@ sbf_status sbfi_assimp_read(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error);
 
 /* Reads a stream from the child; scene->format is set. `bytes` is aligned to 4. */
-sbf_status sbfi_assimp_take(sbfi_scene *scene, const uint8_t *bytes, size_t size,
+sbf_status sbfi_assimp_parse(sbfi_scene *scene, const uint8_t *bytes, size_t size,
     const sbf_allocator *allocator, sbf_diagnostic *error);
 
 #endif

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "import/scene/trs.h"
-#include "motion/turn.h"
+#include "motion/quatd.h"
 
 typedef struct location {
   uint32_t next[SBFI_LONGEST_CHAIN][SBFI_RAW_TRACKS]; /* first key of each track after the current time */
@@ -39,7 +39,7 @@ static void sample(const sbfi_track *track, uint32_t next, float time, uint32_t 
   double t = span > 0 ? ((double)time - track->times[a]) / span : 0;
   if (width == 4) {
     double qa[4] = {from[0], from[1], from[2], from[3]}, qb[4] = {until[0], until[1], until[2], until[3]};
-    sbfi_turn_mix(qa, qb, t, to);
+    sbfi_quatd_slerp(qa, qb, t, to);
   } else {
     for (int k = 0; k < 3; k++) to[k] = from[k] + t * ((double)until[k] - from[k]);
   }

@@ -183,7 +183,7 @@ static bool all_usable(const sbfi_scene *scene, const sbfi_matrix *worlds) {
   return true;
 }
 
-bool sbfi_scene_take_bind_pose(sbfi_scene *scene) {
+bool sbfi_scene_apply_bind_pose(sbfi_scene *scene) {
   bool skinned = false;
   for (uint32_t i = 0; i < scene->mesh_count; i++) skinned = skinned || scene->meshes[i].joint_count;
   if (!skinned) return true;

@@ -15,6 +15,6 @@ bool sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds, double *diff
 /* Makes the bind pose the rest pose of a scene that is not shared yet, if they differ, and adds a note.
  * Skinned meshes are then in their bind shape. Clips keep their motion: missing tracks get a key with the
  * node's saved value. `saved_worlds` keeps the pose of the file. False if memory runs out. */
-bool sbfi_scene_take_bind_pose(sbfi_scene *scene);
+bool sbfi_scene_apply_bind_pose(sbfi_scene *scene);
 
 #endif

@@ -1,0 +1,340 @@
+/* Range and speed of feet, from the speed alone: there is no clock.
+ *
+ * A foot lands `half_m` ahead of its home and lifts off as far behind, so a stance lasts 2 half_m / speed. In
+ * that time all other feet, or groups of feet, must step. While there is time for one after the other, they
+ * do so, and the body stays balanced. At higher speed the feet of a group step together; at still higher
+ * speed steps become shorter in time. */
+#include "animation/gait/gait_state.h"
+
+static const float USED = 0.75f;        /* fraction of a foot's range that a stride uses */
+static const float DEEPEST = 0.8f;      /* fraction of the circle of an upright body; bounds its lowering */
+static const float LEANING = 0.8f;      /* fraction of the hips' height that a leaning body keeps */
+static const float SURE = 1.0f;         /* fraction of the mean range that is always available */
+static const float STRIDE_S = 0.5f;     /* time over which the maximum stride is averaged */
+static const float STRETCH = 0.97f;     /* fraction of the full reach */
+static const float MIN = 0.05f;         /* fraction of a leg's length: minimum range of a foot */
+static const float PEG = 0.25f;         /* the same for a leg of one bone */
+static const float SLACK = 1.15f;       /* time from step to step, in steps */
+static const float LEAN_S = 0.12f;      /* time for the body to lean before a foot lifts off */
+static const float LEAN_TWO_S = 0.5f;   /* the same with two legs */
+static const float LEAN_SLOW_S = 0.36f; /* the same at low speed, where it keeps balance */
+static const float SLOW = 0.35f;        /* reaches per second: maximum speed with balance */
+static const float LONGEST = 1.35f;     /* maximum duration of a fast step relative to the usual one */
+static const float SHORTEST = 0.25f;    /* minimum duration of a step relative to the usual one */
+static const float MISSED =
+    0.002f; /* fraction of the reach: distance of a sole from its target from which on the body slows down */
+static const float MISSES = 0.01f; /* additional distance at which it stops */
+static const float BRAKES =
+    1; /* reaches per squared duration of a step: deceleration for a foot at its reach */
+static const float BESIDE = 1.15f;   /* half soles: minimum distance of feet from the middle */
+static const uint32_t MANY_LEGS = 6; /* number of legs from which on half of them suffice for balance */
+static const float LEVEL = 0.05f;    /* fraction of the reach: maximum height difference of level ground */
+
+sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
+  sbf_vec3 v = sbri_headed(state, sbri_vec3(state->motion.sideways, 0, state->motion.forward));
+  if (state->pace.pivot_leg) { /* rotation about a foot moves the body */
+    sbf_vec3 arm = sbri_sub(state->motion.position, state->feet[state->pace.pivot_leg - 1].ground);
+    v.x += state->motion.turn * arm.z, v.z -= state->motion.turn * arm.x;
+  }
+  return v;
+}
+
+/* Bipeds place each foot close to the middle, so that the body need not lean far to be above it. This applies
+ * to forward motion only, because sideways the feet would collide. */
+static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, float x) {
+  if (rig->leg_count != 2 || rig->stand.has_pegs || state->pace.in_groups) return x;
+  float forward_square = state->motion.forward * state->motion.forward,
+        sideways_square = state->motion.sideways * state->motion.sideways;
+  float rotation_speed = state->motion.turn * rig->stand.spread,
+        sum = forward_square + sideways_square + rotation_speed * rotation_speed;
+  float min = BESIDE * rig->legs[leg].sole.left;
+  if (sum <= 0 || fabsf(x) <= min) return x;
+  float min_x = x < 0 ? -min : min;
+  return x + forward_square / sum * (min_x - x);
+}
+
+sbf_vec3 sbri_home_arm(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+  sbf_vec3 home = rig->legs[leg].home.position;
+  if (rig->legs[leg].home.carrier >= 0) {
+    const sbr_transform *bone =
+        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[rig->legs[leg].home.carrier].frame;
+    home = sbri_rotate(bone->rotation, sbri_scale(rig->legs[leg].home.in_bone, input->scale));
+    home = sbri_sub(sbri_add(bone->position, home), state->motion.position);
+    return sbri_vec3(home.x, 0, home.z);
+  }
+  float width = rig->gait->step_width;
+  if (state->pace.standing_s == 0 && width > 0 && home.x != 0) home.x = home.x < 0 ? -width : width;
+  if (state->pace.standing_s == 0 && width == 0) home.x = narrowed(rig, state, leg, home.x);
+  home.y = 0;
+  return sbri_headed(state, sbri_scale(home, input->scale));
+}
+
+sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm) {
+  int32_t carrier = rig->legs[leg].home.carrier;
+  if (carrier >= 0) {
+    sbf_vec3 v = sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[carrier].velocity;
+    return sbri_vec3(v.x, 0, v.z);
+  }
+  sbf_vec3 v = sbri_body_velocity(state);
+  return sbri_vec3(v.x + state->motion.turn * arm.z, 0, v.z - state->motion.turn * arm.x);
+}
+
+float sbri_wanted_speed(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, const sbri_home *homes) {
+  sbri_gait_state wanted = {.motion = {.heading_sine = state->motion.heading_sine,
+                                .heading_cosine = state->motion.heading_cosine,
+                                .forward = input->forward,
+                                .sideways = input->sideways,
+                                .turn = input->turn}};
+  sbf_vec3 v = sbri_body_velocity(&wanted);
+  float max = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    sbf_vec3 arm = homes[i].arm;
+    float speed = sbri_length(sbri_vec3(v.x + input->turn * arm.z, 0, v.z - input->turn * arm.x));
+    max = speed > max ? speed : max;
+  }
+  return max;
+}
+
+sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, const sbr_transform *root) {
+  const sbri_leg *l = &rig->legs[leg];
+  if (l->home.carrier >= 0) {
+    const sbr_transform *bone =
+        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[l->home.carrier].frame;
+    sbf_vec3 own = sbri_scale(rig->bones.rest_local[l->upper].position, input->scale);
+    return sbri_add(bone->position, sbri_rotate(bone->rotation, own));
+  }
+  return sbri_add(root->position, sbri_rotate(root->rotation, state->feet[leg].hip));
+}
+
+/* Vector from the hip to the ankle above `sole`, at the foot's height. */
+static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t leg,
+    sbf_vec3 hip, sbf_vec3 sole, bool at_home) {
+  const sbri_leg *l = &rig->legs[leg];
+  const sbri_foot *foot = &state->feet[leg];
+  sole.y = foot->ground.y + state->motion.position.y;
+  return sbri_sub(
+      at_home ? sbri_ankle_at_home(l, foot, sole, scale) : sbri_ankle_over(l, foot, sole, scale), hip);
+}
+
+/* Radius of the circle over the ground, about the hip, that a leg's foot can reach while its ankle is at
+ * `from` relative to the hip; `offset` receives the horizontal offset of the ankle from the centre. */
+static float reachable_circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 from, float lowered, sbf_vec3 *offset) {
+  const sbri_leg *l = &rig->legs[leg];
+  float reach = STRETCH * (1 - l->length.soft_reach) * l->length.reach * input->scale;
+  float upright = state->posture.lowered - from.y, level = reach * reach - upright * upright;
+  float height = -lowered * from.y; /* the body is lowered for its feet */
+  float min = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
+  if (min > lowered * upright) min = lowered * upright;
+  if (height < min) height = min;
+  if (height < upright - state->balance.clearance.value)
+    height = upright - state->balance.clearance.value; /* and at most to the belly's clearance */
+  if (from.y > 0) height = from.y;
+  *offset = sbri_vec3(from.x, 0, from.z);
+  float square = reach * reach - height * height;
+  return square > 0 ? sqrtf(square) : 0;
+}
+
+/* Distance from a point in a circle to its edge along a unit direction. */
+static float to_edge(sbf_vec3 offset, float radius, sbf_vec3 direction) {
+  float along = sbri_dot(offset, direction),
+        square = along * along - sbri_dot(offset, offset) + radius * radius;
+  return (square > 0 ? sqrtf(square) : 0) - along;
+}
+
+sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 arm) {
+  const sbri_leg *l = &rig->legs[leg];
+  sbri_roam roam;
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
+  sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, sbri_add(state->motion.position, arm), true);
+  float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.center);
+  float length = (l->length.upper + l->length.lower) * input->scale, offset = sbri_length(roam.center);
+  if (l->lower < 0) radius = offset + PEG * length;
+  roam.radius = radius < offset + MIN * length ? offset + MIN * length : radius;
+  return roam;
+}
+
+/* Maximum distance of a foot ahead of its home and behind, m. */
+typedef struct span {
+  float ahead, behind;
+} span;
+static span span_of(const sbri_roam *roam, sbf_vec3 direction) {
+  return (span){USED * to_edge(roam->center, roam->radius, direction),
+      USED * to_edge(roam->center, roam->radius, sbri_scale(direction, -1))};
+}
+
+float sbri_ahead(const sbri_roam *roam, sbf_vec3 direction, float half) {
+  span max = span_of(roam, direction);
+  float middle = 0.5f * (max.ahead - max.behind), widest = 0.5f * (max.ahead + max.behind);
+  if (half >= widest) return max.ahead;
+  float ahead = half + middle * sbri_smooth(2 * half / widest - 1); /* wide strides are centred at the hip */
+  if (ahead > max.ahead) return max.ahead;
+  return 2 * half - ahead > max.behind ? 2 * half - max.behind : ahead;
+}
+
+/* Velocity of each leg's home and the range of its foot. Returns half of the widest stride that all legs can
+ * take, m. */
+static float check_homes(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbri_stride *s) {
+  float max = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    sbri_home *home = &s->homes[i];
+    home->arm = sbri_home_arm(rig, state, input, i);
+    home->velocity = sbri_home_velocity(rig, state, i, home->arm);
+    home->speed = sbri_length(home->velocity);
+    home->roam = sbri_roam_of(rig, state, input, i, home->arm);
+    s->speed = home->speed > s->speed ? home->speed : s->speed;
+    sbf_vec3 direction = sbri_normalize(home->velocity, sbri_headed(state, sbri_vec3(0, 0, 1)));
+    span own = span_of(&home->roam, direction);
+    float half = 0.5f * (own.ahead + own.behind);
+    max = i == 0 || half < max ? half : max;
+  }
+  return max;
+}
+
+bool sbri_stands_level(const sbri_rig *rig, const sbri_gait_state *state, float scale) {
+  float low = 1e30f, high = -1e30f;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    float y = state->feet[i].planted ? state->feet[i].ground.y : state->feet[i].step.to.y;
+    low = y < low ? y : low, high = y > high ? y : high;
+  }
+  return high - low < LEVEL * rig->stand.reach * scale;
+}
+
+sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  sbri_stride s = {0};
+  float max = check_homes(rig, state, input, &s);
+  if (state->pace.max_half_m > 0)
+    max = state->pace.max_half_m + (max - state->pace.max_half_m) * input->tick_s / STRIDE_S;
+  s.max_half_m = max;
+  max *= SURE;
+  float usual = rig->gait->step_duration, needed_s = state->pace.step_s > usual ? state->pace.step_s : usual;
+  float groups = (float)(rig->stand.group_count > 1 ? rig->stand.group_count : 2);
+  float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
+  float wanted = sbri_wanted_speed(rig, state, input, s.homes), fastest = wanted > s.speed ? wanted : s.speed;
+  bool quick = fastest > SLOW * rig->stand.reach * input->scale, slow = !quick && rig->leg_count < MANY_LEGS;
+  float lean_two_s = slow ? LEAN_SLOW_S : LEAN_TWO_S;
+  float lean_s = rig->leg_count == 2 ? lean_two_s : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
+  float turn_time_s = 0.5f * (turns - 1) * (SLACK * needed_s + lean_s),
+        sequential_half = turn_time_s * s.speed;
+  s.in_groups = (turns > groups || rig->leg_count == 2) &&
+                turn_time_s * fastest > (state->pace.in_groups ? 0.62f : 0.74f) * max;
+  s.balanced = slow;
+  s.running = quick && rig->leg_count >= MANY_LEGS && !rig->chains.count &&
+              sbri_stands_level(rig, state, input->scale);
+  if (slow) s.in_groups = false;
+  if (rig->stand.has_pegs) s.in_groups = true; /* rigid legs cannot follow a leaning body */
+  float half_per_second =
+      0.5f * s.speed * (groups - 1) * SLACK; /* half a stride per second of a step's duration */
+  s.available_s = half_per_second > 0 ? max / half_per_second : 1e6f;
+  s.duration_s = usual;
+  float needed = sequential_half;
+  if (slow && !s.in_groups) { /* prefers low speed to loss of balance */
+    float half_per_step = 0.5f * s.speed * (turns - 1);
+    if (half_per_step > 0) s.available_s = max / half_per_step - lean_s;
+    if (needed > max) needed = max;
+  } else if (s.in_groups || needed > max) { /* uses all available time: quick steps are harder */
+    float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
+    s.duration_s = sbri_clamp(0.9f * s.available_s, SHORTEST * usual, longest);
+    needed = half_per_second * s.duration_s;
+    if (needed > max) needed = max;
+  }
+  float trigger = rig->gait->step_trigger * input->scale;
+  s.half_m = needed > trigger ? needed : trigger < max ? trigger : max;
+  s.spacing_m = (2 * s.half_m + s.speed * s.duration_s) / (s.in_groups ? groups : turns);
+  return s;
+}
+
+float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t leg) {
+  sbf_vec3 offset = sbri_sub(state->feet[leg].ground, sbri_add(state->motion.position, home->arm));
+  offset.y = 0;
+  float distance = sbri_length(offset);
+  if (distance <= 0) return 0;
+  float roam = to_edge(home->roam.center, home->roam.radius, sbri_scale(offset, 1 / distance));
+  return distance / (roam > 1e-6f ? roam : 1e-6f);
+}
+
+/* The circle of allowed positions of a leg's foot. */
+static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, uint32_t leg, sbf_vec3 arm, float lowered) {
+  const sbri_leg *l = &rig->legs[leg];
+  sbri_roam stance;
+  sbf_vec3 home = sbri_add(state->motion.position, arm);
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
+  sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, state->feet[leg].ground, false);
+  float radius = reachable_circle(rig, state, input, leg, from, lowered, &stance.center);
+  sbf_vec3 offset = from_hip(rig, state, input->scale, leg, hip, home, true);
+  offset.y = 0;
+  float length = (l->length.upper + l->length.lower) * input->scale, rest = sbri_length(offset);
+  if (l->lower < 0) radius = rest + PEG * length;
+  stance.radius = radius < rest + MIN * length ? rest + MIN * length : radius;
+  return stance;
+}
+
+float sbri_remaining_reach(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 direction) {
+  sbf_vec3 arm = sbri_home_arm(rig, state, input, leg);
+  sbri_roam stance = stance_circle(rig, state, input, leg, arm, LEANING);
+  return to_edge(stance.center, stance.radius, sbri_scale(direction, -1));
+}
+
+/* Remaining travel of a planted leg until the end of its reach, if its home moves at `speed`; m. */
+static float remaining_travel(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float *speed) {
+  sbf_vec3 arm = sbri_home_arm(rig, state, input, leg), v = sbri_home_velocity(rig, state, leg, arm);
+  *speed = sbri_length(v);
+  if (*speed <= 0) return 0;
+  sbf_vec3 displacement = sbri_scale(v, 1 / *speed);
+  sbri_roam stance = stance_circle(rig, state, input, leg, arm, SBRI_LOWERED);
+  float left = to_edge(stance.center, stance.radius, sbri_scale(displacement, -1));
+  float rotation =
+      left > 0 ? sbri_clamp(state->motion.turn * left / *speed, -2, 2) : 0; /* rotation until then */
+  if (rotation != 0)
+    left =
+        to_edge(stance.center, stance.radius, sbri_scale(sbri_rotate_yaw(displacement, 0.5f * rotation), -1));
+  return left > 0 ? left : 0;
+}
+
+float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float in_s) {
+  float min = 1, speed;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    if (!state->feet[i].planted) continue;
+    if (state->pace.in_groups &&
+        rig->legs[i].group == rig->legs[leg].group) { /* this foot steps too, if it is behind */
+      sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
+      sbf_vec3 behind = sbri_sub(sbri_add(state->motion.position, arm), state->feet[i].ground);
+      if (sbri_dot(behind, sbri_home_velocity(rig, state, i, arm)) > 0) continue;
+    }
+    float left = remaining_travel(rig, state, input, i, &speed);
+    if (left < min * speed * in_s) min = left / (speed * in_s);
+  }
+  return min;
+}
+
+float sbri_pace_of(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting) {
+  float min = 1, speed, in_air_s = 0, step_s = rig->leg_count ? rig->gait->step_duration : 1;
+  float brakes = BRAKES * rig->stand.reach * input->scale / (step_s * step_s);
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    float left_s =
+        state->feet[i].planted ? 0 : (1 - state->feet[i].step.phase) * state->feet[i].step.duration_s;
+    in_air_s = left_s > in_air_s ? left_s : in_air_s;
+  }
+  *lasting = 1;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    if (!state->feet[i].planted) continue;
+    float left = remaining_travel(rig, state, input, i, &speed), missed = state->feet[i].reach_error;
+    if (speed <= 0) continue;
+    missed /= rig->stand.reach * input->scale;
+    if (missed > MISSED && 1 - (missed - MISSED) / MISSES < min) min = 1 - (missed - MISSED) / MISSES;
+    float max = sqrtf(2 * brakes * left);
+    if (max < min * speed) min = max / speed;
+    if (left < *lasting * speed * in_air_s) *lasting = left / (speed * in_air_s);
+  }
+  return min > 0 ? min : 0;
+}

@@ -1,0 +1,13 @@
+/* Tails: their bones, how they follow, and the depth of their skin. */
+#ifndef SBRI_RIG_TAILS_H
+#define SBRI_RIG_TAILS_H
+
+#include "animation/skeleton/rig.h"
+
+size_t sbri_rig_tails_size(const sbf_asset *asset);
+
+/* Sets `tails` and their counts; `memory`: sbri_rig_tails_size bytes. Call after the gait and its rest pose
+ * are set. */
+void sbri_rig_find_tails(sbri_rig *rig, void *memory);
+
+#endif

@@ -1,3 +1,0 @@
-/* Compiled for the instruction set of the whole library. */
-#define SBRI_KERNELS sbri_kernels_plain
-#include "kernels/kernel_table.h"

@@ -1,0 +1,85 @@
+/* Steps a world by one control tick: first the characters' animation, then contacts between characters, then
+ * soft-body islands. Each stage is a set of tasks. No task writes what another task reads, so the result has
+ * the same bits for any number of threads and any order. */
+#include <string.h>
+
+#include "coupling/body_contact/body_contacts.h"
+#include "coupling/ragdoll/ragdoll.h"
+#include "math/vec3.h"
+#include "soft/soft.h"
+#include "soft/solvers/scheme.h"
+#include "soft/tear/tear.h"
+#include "world/detail/choose.h"
+#include "world/stage_clock.h"
+#include "world/step.h"
+
+static void tick_character(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_character_tick(world, &world->characters[index]);
+}
+
+/* Runs before the broad phase, which needs the final detail level of every character. */
+static void change_detail_level(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_character *c = &world->characters[index];
+  if (!c->model || sbri_header(c)->paused || sbri_header(c)->asleep) return;
+  sbri_detail_level_change(world, c);
+  sbri_contact_surfaces_select_level(world, index);
+}
+
+static void tick_island(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_work work = world->work[index];
+  sbri_character *c = &world->characters[work.character];
+  if (!sbri_character_is_grouped(world, c) && !sbri_island_is_coupled(c, work.island))
+    sbri_island_run(world, c, work.island);
+}
+
+static void tick_group(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_group_run(world, &world->body_contacts->groups[index]);
+}
+
+static void run(sbr_world *world, sbr_task *task, size_t count) {
+  if (world->tasks.run)
+    world->tasks.run(world->tasks.user, task, world, (uint32_t)count);
+  else
+    for (uint32_t i = 0; i < count; i++) task(world, i);
+}
+
+static void follow_tears(sbr_world *world) {
+  for (uint32_t i = 0; i < world->work_count; i++) {
+    sbri_character *c = &world->characters[world->work[i].character];
+    uint32_t island = world->work[i].island;
+    if (c->model->islands[island].splits && sbri_tears_of(c)[island].count > 0) sbri_skins_follow(c, island);
+  }
+}
+
+void sbri_step_tick(sbr_world *world) {
+  world->ticks++;
+  sbri_stages_begin(world);
+  sbri_colliders_begin_tick(&world->colliders, world->tick_s);
+  sbri_stage_end(world, SBR_STAGE_COLLIDERS);
+  if (world->body_contacts) sbri_near_characters_find(world);
+  if (world->detail) sbri_detail_choose(world);
+  sbri_character_storage_update(world);
+  if (world->body_contacts) run(world, change_detail_level, world->character_capacity);
+  sbri_stage_end(world, SBR_STAGE_DETAIL);
+  if (world->body_contacts) sbri_broad_phase_update(world);
+  sbri_stage_end(world, SBR_STAGE_BROAD_PHASE);
+  run(world, tick_character, world->character_capacity);
+  sbri_stage_end(world, SBR_STAGE_ANIMATION);
+  if (world->body_contacts) {
+    run(world, tick_group, world->body_contacts->group_count);
+    sbri_contacts_store(world);
+  }
+  sbri_stage_end(world, SBR_STAGE_CONTACT_GROUPS);
+  sbri_work_list(world);
+  run(world, tick_island, world->work_count);
+  sbri_stage_end(world, SBR_STAGE_ISLANDS);
+  follow_tears(world);
+  sbri_tick_events_gather(world);
+  if (world->body_contacts) sbri_pair_reports_publish(world);
+  sbri_tick_sleep_note(world);
+  sbri_stage_end(world, SBR_STAGE_EVENTS);
+}
