@@ -90,7 +90,7 @@ static const char *many(uint32_t count) {
 }
 
 /* Prints bodies whose finest level is authored, not built. */
-static void print_kept(const sbf_asset *built) {
+static void print_preserved(const sbf_asset *built) {
   uint32_t bodies = 0;
   uint64_t tetrahedra = 0, springs = 0;
   for (uint32_t i = 0; i < built->soft_bodies.count; i++) {
@@ -121,7 +121,7 @@ static void print_springs(const sbf_build_report *r) {
 
 static void print_report(const sbf_asset *built, const sbf_build_report *r) {
   if (r->sections) printf("cut %u section%s along the bones\n", r->sections, many(r->sections));
-  print_kept(built);
+  print_preserved(built);
   if (r->bodies || built->soft_bodies.count == 0)
     printf("built %u bod%s: %u interior points, %u pins, %u hull%s, %u embedded vertices\n", r->bodies,
         r->bodies == 1 ? "y" : "ies", r->interior_points, r->pins, r->hulls, many(r->hulls),
@@ -147,7 +147,7 @@ static void print_report(const sbf_asset *built, const sbf_build_report *r) {
 }
 
 /* Prints what was chosen within a budget and what was left out. */
-static void say_choice(const cli_call *call, const section_budget *choice) {
+static void print_choice(const cli_call *call, const section_budget *choice) {
   sbf_diagnostic diagnostic = {
       .code = SBF_CODE_SOFTNESS_PROPOSED, .severity = SBF_SEVERITY_INFO, .offset = -1, .index = -1};
   const double us = SECTION_BUDGET_NS_PER_VISIT / 1e3;
@@ -184,7 +184,7 @@ sbf_status building_choose(cli_call *call, sbf_asset *source, double budget_us, 
   if (!(budget_us > 0) || !section_budget_applies(source, &options)) return SBF_OK;
   cli_progress("budget", 0);
   sbf_status status = section_budget_choose(source, &options, budget_us, &choice, error);
-  if (status == SBF_OK && choice.elements) say_choice(call, &choice);
+  if (status == SBF_OK && choice.elements) print_choice(call, &choice);
   cli_progress_end();
   return status;
 }

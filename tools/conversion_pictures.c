@@ -108,7 +108,7 @@ static const sbf_level *finest(const sbf_soft_body *body) {
 static const float PITCH_OF_FLAT = 0.9f; /* rad */
 
 /* Removes the half towards the camera, in front of the middle along +X and +Z. */
-static bool is_kept(const sbf_level *level, const uint32_t *p, float middle) {
+static bool is_drawn(const sbf_level *level, const uint32_t *p, float middle) {
   float at = 0;
   for (int k = 0; k < 4; k++) at += level->positions.at[p[k]].x / 4;
   return at <= middle;
@@ -136,7 +136,7 @@ static bool add_cut(const sbf_level *level, const draw_colour_map *map, draw_sce
   middle_of(level, &middle);
   for (uint32_t i = 0; points && colours && triangles && i < all->count; i++) {
     const uint32_t *p = all->at[i].at;
-    if (!is_kept(level, p, middle)) continue;
+    if (!is_drawn(level, p, middle)) continue;
     draw_colour colour = draw_colour_map_at(map, (float)mesh_radius_ratio(level->positions.at, p));
     for (int s = 0; s < 4; s++)
       for (int k = 0; k < 3; k++) {
@@ -293,7 +293,7 @@ static bool append(json_t *list, const easel *e, size_t view, const uint8_t *png
 }
 
 /* If memory runs out, the note is lost but not the picture. */
-static void keep_note(void *user, const sbf_diagnostic *note) {
+static void store_note(void *user, const sbf_diagnostic *note) {
   easel *e = user;
   size_t before = e->notes ? strlen(e->notes) : 0, more = strlen(note->message) + 3;
   char *grown = realloc(e->notes, before + more);
@@ -309,7 +309,7 @@ bool conversion_pictures_draw(const sbf_asset *asset, const char *file, json_t *
   sbf_status status = open_easel(&e, &error);
   bool good = true;
   subject of = {asset, &e.images};
-  if (status == SBF_OK) skin_images_load(&e.images, asset, file, keep_note, &e);
+  if (status == SBF_OK) skin_images_load(&e.images, asset, file, store_note, &e);
   for (size_t i = 0; status == SBF_OK && good && i < sizeof views / sizeof *views; i++) {
     uint8_t *png = NULL;
     size_t size = 0;

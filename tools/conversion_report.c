@@ -36,7 +36,7 @@ static json_t *count(uint32_t n) {
   return json_integer(n);
 }
 
-static const char *who_said(bool file, bool call) {
+static const char *origin_of(bool file, bool call) {
   return call ? "call" : file ? "file" : "assumed";
 }
 
@@ -51,8 +51,8 @@ static json_t *source(const conversion_report *of, uint32_t i) {
              : "",
       "bytes", (json_int_t)(path ? bytes_of(path) : 0), "sha256", i < known->count ? known->at[i].sha256 : "",
       "form", s->form, "generator", s->generator, "unit_m", s->unit_m, "unit_from",
-      who_said(s->unit_stated, is_input && of->options->unit_m > 0), "axes_from",
-      who_said(s->axes_stated, is_input && of->options->up));
+      origin_of(s->unit_stated, is_input && of->options->unit_m > 0), "axes_from",
+      origin_of(s->axes_stated, is_input && of->options->up));
   const struct {
     const char *key;
     uint32_t count;

@@ -17,7 +17,7 @@ static uint32_t skin_points(const sbf_asset *asset) {
   return count;
 }
 
-static void say_left_out(const cli_call *call, const char *path, const sbf_asset *asset) {
+static void print_left_out(const cli_call *call, const char *path, const sbf_asset *asset) {
   sbf_diagnostic left = {.code = SBF_CODE_EXPORT_LEFT_OUT,
       .severity = SBF_SEVERITY_WARNING,
       .line = 0,
@@ -52,6 +52,6 @@ sbf_status motion_cache_write(const cli_call *call, const char *path, const sbf_
     status = sbf_point_cache_commit(cache, error);
   else
     sbf_point_cache_abandon(cache);
-  if (status == SBF_OK) say_left_out(call, path, asset);
+  if (status == SBF_OK) print_left_out(call, path, asset);
   return status;
 }

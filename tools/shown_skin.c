@@ -215,7 +215,7 @@ void shown_skin_destroy(shown_skin *skin) {
 }
 
 /* Copies the patch's triangles that are not torn to p->whole and related buffers; returns their number. */
-static uint32_t keep_whole(const patch *p, const uint8_t *torn) {
+static uint32_t copy_whole(const patch *p, const uint8_t *torn) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < p->triangle_count; i++) {
     if (torn[p->polygons[i]]) continue;
@@ -252,7 +252,7 @@ static void add_mesh(shown_skin *skin, const session *s, uint32_t number, sbf_ve
         s->world, s->character, number, mesh->level, skin->of_corners, skin->corner_capacity);
   for (uint32_t p = 0; p < mesh->patch_count; p++) {
     const patch *one = &mesh->patches[p];
-    uint32_t triangles = keep_whole(one, mesh->torn);
+    uint32_t triangles = copy_whole(one, mesh->torn);
     if (triangles == 0) continue;
     draw_mesh drawn = {.positions = skin->positions,
         .normals = skin->normals,

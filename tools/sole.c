@@ -95,7 +95,7 @@ static double rest_height(const sbf_asset *asset, uint32_t vertex) {
 }
 
 /* Keeps the lowest vertices and records their heights. */
-static bool keep_lowest(const sbf_asset *asset, sole *s) {
+static bool select_lowest(const sbf_asset *asset, sole *s) {
   double low = INFINITY, high = -INFINITY;
   for (uint32_t i = 0; i < s->count; i++) {
     low = fmin(low, rest_height(asset, s->vertices[i]));
@@ -126,7 +126,7 @@ soles *soles_create(const session *s) {
     sole *one = &all->at[all->count++];
     int32_t foot = asset->ik_chains.at[gait->legs.at[l].ik].end;
     bool good = gather(asset, foot, one) && (one->count || gather_firm_first(asset, foot, one));
-    if (good && keep_lowest(asset, one)) continue;
+    if (good && select_lowest(asset, one)) continue;
     soles_destroy(all);
     return NULL;
   }

@@ -18,7 +18,7 @@ struct thread_pool {
   atomic_uint next;
 };
 
-static void take_tasks(thread_pool *pool) {
+static void run_tasks(thread_pool *pool) {
   for (uint32_t i; (i = atomic_fetch_add(&pool->next, 1)) < pool->count;) pool->task(pool->context, i);
 }
 
@@ -31,7 +31,7 @@ static void *work(void *argument) {
     if (pool->ending) break;
     seen = pool->round;
     pthread_mutex_unlock(&pool->mutex);
-    take_tasks(pool);
+    run_tasks(pool);
     pthread_mutex_lock(&pool->mutex);
     if (--pool->busy == 0) pthread_cond_signal(&pool->done);
   }
@@ -50,7 +50,7 @@ static void run(void *user, sbr_task *task, void *context, uint32_t count) {
   pool->round++;
   pthread_cond_broadcast(&pool->work);
   pthread_mutex_unlock(&pool->mutex);
-  take_tasks(pool);
+  run_tasks(pool);
   pthread_mutex_lock(&pool->mutex);
   while (pool->busy) pthread_cond_wait(&pool->done, &pool->mutex);
   pthread_mutex_unlock(&pool->mutex);

@@ -15,7 +15,7 @@ static void describe_method(const tuning *t, const tune_trial *trial, char *text
 }
 
 /* As "0.0151 m (1 % of the size)". */
-static void say_length(const tuning *t, double length_m, char *text, size_t size) {
+static void format_length(const tuning *t, double length_m, char *text, size_t size) {
   snprintf(text, size, "%.3g m (%.2g %% of its size)", length_m, 100 * length_m / t->size_m);
 }
 
@@ -24,8 +24,8 @@ void tuning_describe_unmet(const tuning *t, char text[TUNING_TEXT]) {
   char how[128], asked[48], is[48];
   describe_method(t, near, how, sizeof how);
   double error = tune_distance_by(&near->promised, t->by);
-  say_length(t, t->goal.error_m, asked, sizeof asked);
-  say_length(t, error, is, sizeof is);
+  format_length(t, t->goal.error_m, asked, sizeof asked);
+  format_length(t, error, is, sizeof is);
   if (t->verdict == TUNE_TOO_FINE)
     snprintf(text, TUNING_TEXT,
         "nothing that was tried keeps within %s: the nearest is off by %s (%s), %.2g m of it the reference's "

@@ -307,7 +307,7 @@ static void print_quality(const json_t *q) {
   printf("\n");
 }
 
-static bool take_stated(float mass, sbf_vec3 low, sbf_vec3 high, sbf_asset_measures *m) {
+static bool use_stated(float mass, sbf_vec3 low, sbf_vec3 high, sbf_asset_measures *m) {
   bool bounded = low.x != high.x || low.y != high.y || low.z != high.z;
   *m = (sbf_asset_measures){(double)mass, bounded, low, high};
   return bounded;
@@ -317,9 +317,9 @@ static bool take_stated(float mass, sbf_vec3 low, sbf_vec3 high, sbf_asset_measu
 static bool stated_measures(const sbf_asset *asset, sbf_asset_measures *m) {
   for (uint32_t i = asset->derivations.count; i-- > 0;) {
     const sbf_derivation *d = &asset->derivations.at[i];
-    if (take_stated(d->mass, d->low, d->high, m)) return true;
+    if (use_stated(d->mass, d->low, d->high, m)) return true;
   }
-  return take_stated(asset->info.mass, asset->info.low, asset->info.high, m);
+  return use_stated(asset->info.mass, asset->info.low, asset->info.high, m);
 }
 
 /* Data that an outline omits: which surface points are points of the springs. */

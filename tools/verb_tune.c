@@ -159,7 +159,7 @@ static bool choose(tuning *t) {
 }
 
 /* The chosen one first, and cheaper ones after it. */
-static void take_levels(tuning *t) {
+static void use_levels(tuning *t) {
   for (uint32_t i = t->chosen + 1; i-- > 0 && t->level_count < TUNE_MAX_MESHES;) {
     const tune_trial *trial = &t->trials.at[t->trials.front[i]];
     t->levels[t->level_count++] = (tune_level){&t->meshes.at[trial->mesh], trial};
@@ -167,7 +167,7 @@ static void take_levels(tuning *t) {
 }
 
 /* Settings as stored in a derivation, in alphabetical order. */
-static void say_settings(const tuning *t, char *text, size_t size) {
+static void format_settings(const tuning *t, char *text, size_t size) {
   char budget[32] = "", error[32] = "";
   if (t->goal.budget_us > 0) snprintf(budget, sizeof budget, "budget_us=%.9g ", t->goal.budget_us);
   if (t->goal.error_m > 0) snprintf(error, sizeof error, "error_m=%.9g ", t->goal.error_m);
@@ -177,7 +177,7 @@ static void say_settings(const tuning *t, char *text, size_t size) {
 
 static sbf_status make(tuning *t, sbf_asset **made, sbf_diagnostic *error) {
   char settings[160], machine[224];
-  say_settings(t, settings, sizeof settings);
+  format_settings(t, settings, sizeof settings);
   snprintf(machine, sizeof machine, "%s, %s", t->machine.processor, t->machine.compiler);
   return tune_levels_write(t->meshes.base, t->levels, t->level_count, settings, machine, made, error);
 }
@@ -191,7 +191,7 @@ static int write_out(const cli_call *call, tuning *t) {
     made = sbf_asset_clone(t->meshes.base, NULL);
     if (!made) return cli_wrong(call, "memory ran out");
   } else {
-    take_levels(t);
+    use_levels(t);
     status = make(t, &made, &error);
   }
   cli_progress_end();
@@ -202,7 +202,7 @@ static int write_out(const cli_call *call, tuning *t) {
   return saved;
 }
 
-static void say_unmet(const cli_call *call, const tuning *t, const request *r) {
+static void print_unmet(const cli_call *call, const tuning *t, const request *r) {
   char text[TUNING_TEXT];
   tuning_describe_unmet(t, text);
   if (r->nearest)
@@ -216,7 +216,7 @@ static int finish(cli_call *call, tuning *t, const request *r) {
   bool reached = t->meshes.nothing_is_soft || t->verdict == TUNE_MET, writes = reached || r->nearest;
   int saved = writes ? write_out(call, t) : SBF_OK;
   cli_progress_end();
-  if (!reached) say_unmet(call, t, r);
+  if (!reached) print_unmet(call, t, r);
   if (saved != SBF_OK) return saved;
   if (call->json) return cli_print_json(tuning_json(t), writes ? SBF_OK : SBF_BAD_INPUT);
   if (!writes) return SBF_BAD_INPUT;

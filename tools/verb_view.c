@@ -35,7 +35,7 @@ static sbf_status write_shot(viewing *g, const char *path, sbf_diagnostic *error
 }
 
 /* Handles the script's events, then the window's. */
-static sbf_status take_events(viewer *v, uint32_t frame, const char **shot, sbf_diagnostic *error) {
+static sbf_status handle_events(viewer *v, uint32_t frame, const char **shot, sbf_diagnostic *error) {
   SDL_Event event;
   sbf_status status = SBF_OK;
   while (status == SBF_OK && input_script_next(&v->input, &v->w, frame, &event, shot))
@@ -48,7 +48,7 @@ static sbf_status take_events(viewer *v, uint32_t frame, const char **shot, sbf_
 static sbf_status show_frame(viewing *g, uint32_t frame, double seconds, bool *more, sbf_diagnostic *error) {
   viewer *v = &g->v;
   const char *shot = NULL;
-  sbf_status status = take_events(v, frame, &shot, error);
+  sbf_status status = handle_events(v, frame, &shot, error);
   if (status != SBF_OK) return status;
   *more = viewer_step(v, seconds);
   status = viewer_draw(v, error);

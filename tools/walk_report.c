@@ -222,7 +222,7 @@ static double length3(const double v[3]) {
 }
 
 /* Rotation vector from a to b over dt, degrees per second. */
-static void turn_rate(sbf_quat a, sbf_quat b, double dt, double rate[3]) {
+static void angular_velocity(sbf_quat a, sbf_quat b, double dt, double rate[3]) {
   double w = (double)a.w * b.w + (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
   double v[3] = {(double)a.w * b.x - (double)b.w * a.x - (double)b.y * a.z + (double)b.z * a.y,
       (double)a.w * b.y - (double)b.w * a.y - (double)b.z * a.x + (double)b.x * a.z,
@@ -238,7 +238,7 @@ static void measure_body(walk_report *r, const session *s, double dt) {
       origin.x + (double)b->position.x, origin.y + (double)b->position.y, origin.z + (double)b->position.z};
   if (r->body_samples > 0 && dt > 0) {
     double speed[3], turned[3], change[3], turn_change[3];
-    turn_rate(r->body_rotation, b->rotation, dt, turned);
+    angular_velocity(r->body_rotation, b->rotation, dt, turned);
     for (int i = 0; i < 3; i++) {
       speed[i] = (at[i] - r->body_at[i]) / dt;
       change[i] = (speed[i] - r->body_speed[i]) * FRAME_S * fmin(1, FRAME_S / dt);

@@ -140,8 +140,7 @@ static void query_point(const sbri_self_search *l, const contact_point *p, point
   }
 }
 
-static void take_opposite(
-    const sbri_surface_hit *one, const sbri_surface_hit *found, sbri_surface_hit *best) {
+static void add_opposite(const sbri_surface_hit *one, const sbri_surface_hit *found, sbri_surface_hit *best) {
   if (one->urgency < best->urgency && sbri_dot(one->normal, found->normal) < 0) *best = *one;
 }
 
@@ -150,7 +149,7 @@ static bool find_opposite(
     const sbri_self_search *l, const contact_point *p, const point_hits *a, sbri_surface_hit *best) {
   *best = sbri_surface_nothing();
   if (a->other_count <= OTHERS) {
-    for (uint32_t i = 0; i < a->other_count; i++) take_opposite(&a->others[i], &a->best, best);
+    for (uint32_t i = 0; i < a->other_count; i++) add_opposite(&a->others[i], &a->best, best);
     return sbri_surface_found(best);
   }
   sbri_bounds_walk walk;
@@ -160,7 +159,7 @@ static bool find_opposite(
     if (!may_intersect(l, p, item)) continue;
     sbri_surface_hit one = check(l, p, item);
     if (!one.behind && !is_connected(l->body, p->slot, l->body->self.faces + 3 * (size_t)item))
-      take_opposite(&one, &a->best, best);
+      add_opposite(&one, &a->best, best);
   }
   return sbri_surface_found(best);
 }

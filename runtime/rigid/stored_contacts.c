@@ -39,7 +39,7 @@ static const sbri_rigid_contact *find_similar(
 
 /* Two hulls with crossing edges have one contact point at a time and would rock between two. So a contact
  * that is not found in this tick persists while the body is near it. */
-static void keep_contact(
+static void store_contact(
     const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_stored_contact *stored) {
   if (stored->idle_ticks > IDLE_TICKS || work->rigid_contact_count >= work->max_contacts) return;
   const sbri_rigid_contact *similar = find_similar(work, stored);
@@ -72,7 +72,7 @@ void sbri_stored_contacts_apply(const sbri_rigid_tick *t, sbri_rigid_solving *wo
     }
   }
   for (uint32_t k = 0; k < count; k++)
-    if (!t->kept[k].found && t->kept[k].surface != UINT32_MAX) keep_contact(t, work, &t->kept[k]);
+    if (!t->kept[k].found && t->kept[k].surface != UINT32_MAX) store_contact(t, work, &t->kept[k]);
 }
 
 void sbri_stored_contacts_save(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {

@@ -57,7 +57,7 @@ static sbri_wide3 add(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-static sbri_wide3 turn_by(sbri_wide3 u, sbri_wide w, sbri_wide3 v) {
+static sbri_wide3 rotate_by(sbri_wide3 u, sbri_wide w, sbri_wide3 v) {
   sbri_wide3 t = scale(cross(u, v), sbri_wide_all(2));
   return add(add(v, scale(t, w)), cross(u, t));
 }
@@ -87,7 +87,7 @@ void sbri_torque_free_lanes_rotate(sbri_torque_free_lanes *t, float step_s) {
       sbri_wide_load(t->inverse_inertia[2])};
   sbri_wide3 angular_momentum = {sbri_wide_load(t->angular_momentum[0]),
       sbri_wide_load(t->angular_momentum[1]), sbri_wide_load(t->angular_momentum[2])};
-  sbri_wide3 p = turn_by((sbri_wide3){-u.x, -u.y, -u.z}, w_of, angular_momentum),
+  sbri_wide3 p = rotate_by((sbri_wide3){-u.x, -u.y, -u.z}, w_of, angular_momentum),
              w = all_times(inverse_mass, p);
   sbri_wide3 half = scale(w, half_s);
   float squares[SBRI_LANES], passes[SBRI_LANES];
@@ -110,7 +110,7 @@ void sbri_torque_free_lanes_rotate(sbri_torque_free_lanes *t, float step_s) {
   sbri_wide z = w_of * half.z + u.x * half.y - u.y * half.x + u.z;
   sbri_wide r = w_of - u.x * half.x - u.y * half.y - u.z * half.z;
   sbri_wide fraction = sbri_wide_all(1) / sbri_wide_sqrt(x * x + y * y + z * z + r * r);
-  sbri_wide3 velocity = turn_by(u, w_of, w);
+  sbri_wide3 velocity = rotate_by(u, w_of, w);
   sbri_wide_store(t->x, x * fraction), sbri_wide_store(t->y, y * fraction);
   sbri_wide_store(t->z, z * fraction), sbri_wide_store(t->w, r * fraction);
   sbri_wide_store(t->angular_momentum[0], velocity.x), sbri_wide_store(t->angular_momentum[1], velocity.y);

@@ -33,7 +33,7 @@ typedef struct extent {
 
 static const extent nothing = {INFINITY, -INFINITY, INFINITY, -INFINITY};
 
-static void take_in(extent *e, sbf_vec3 p) {
+static void extend(extent *e, sbf_vec3 p) {
   if (p.x < e->low_x) e->low_x = p.x;
   if (p.x > e->high_x) e->high_x = p.x;
   if (p.z < e->low_z) e->low_z = p.z;
@@ -43,7 +43,7 @@ static void take_in(extent *e, sbf_vec3 p) {
 static cell_range range_of(const sbr_ground_mesh *m, uint32_t triangle) {
   const uint32_t *t = m->triangles + 3 * (size_t)triangle;
   extent e = nothing;
-  for (int i = 0; i < 3; i++) take_in(&e, m->points[t[i]]);
+  for (int i = 0; i < 3; i++) extend(&e, m->points[t[i]]);
   return (cell_range){cell_at((double)e.low_x - m->x, m->cell_m, m->columns),
       cell_at((double)e.high_x - m->x, m->cell_m, m->columns),
       cell_at((double)e.low_z - m->z, m->cell_m, m->rows),
@@ -52,7 +52,7 @@ static cell_range range_of(const sbr_ground_mesh *m, uint32_t triangle) {
 
 static void find_grid(sbr_ground_mesh *m, uint32_t point_count, uint32_t triangle_count) {
   extent e = nothing;
-  for (uint32_t i = 0; i < point_count; i++) take_in(&e, m->points[i]);
+  for (uint32_t i = 0; i < point_count; i++) extend(&e, m->points[i]);
   double wide = (double)e.high_x - e.low_x, deep = (double)e.high_z - e.low_z;
   double min = 1e-3 * (wide + deep) + 1e-6, cell = sqrt(wide * deep / triangle_count);
   m->x = e.low_x, m->z = e.low_z;

@@ -86,7 +86,7 @@ static void entitle(char *title, size_t size, const char *whose, const char *mot
 }
 
 /* Title with the usual drive, slowed down for this character. */
-static void say_motion(const chart_bundle *b, uint32_t number, char *text, size_t size) {
+static void describe_motion(const chart_bundle *b, uint32_t number, char *text, size_t size) {
   static const double tick_s = 1.0 / 60;
   const chart_drive *d = &b->drive;
   if (number == 0)
@@ -122,7 +122,7 @@ sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, 
   bundle->ground = (sbr_ground){.height = ground_height, .user = bundle};
   for (int i = 0; i < CHART_BUNDLE_CASES; i++) {
     cases[i] = kinds[i];
-    say_motion(bundle, (uint32_t)i, motion, sizeof motion);
+    describe_motion(bundle, (uint32_t)i, motion, sizeof motion);
     entitle(bundle->titles[i], sizeof bundle->titles[i], asset->info.title, motion);
     cases[i].title = bundle->titles[i];
     cases[i].given = asset;

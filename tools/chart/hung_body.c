@@ -249,7 +249,7 @@ static double measured(const chart_hung_body *body, const run *r) {
 /* ---- The row's own ---- */
 
 /* Lowest mode: the displacement at maximum sag, with steps that are accurate for all modes. */
-static sbf_status take_shape(chart_hung_body *body, sbf_diagnostic *error) {
+static sbf_status store_shape(chart_hung_body *body, sbf_diagnostic *error) {
   run r;
   const char *why = NULL;
   float *masses = calloc(body->points, sizeof *masses);
@@ -292,7 +292,7 @@ static bool check(const chart_hung_body *body, run *r, double x[SAMPLES], chart_
   return true;
 }
 
-static sbf_status take_rate(chart_hung_body *body, sbf_diagnostic *error) {
+static sbf_status measure_rate(chart_hung_body *body, sbf_diagnostic *error) {
   run r;
   double x[SAMPLES];
   fit f;
@@ -325,9 +325,9 @@ sbf_status chart_hung_body_make(chart_elastic elastic, double mass_ratio, double
     body->swings_rad_s = sqrt(1.3 / sag);
     body->points = level_of(body->asset)->positions.count;
     body->shape = calloc(3 * (size_t)body->points, sizeof *body->shape);
-    status = body->shape ? take_shape(body, error) : no_memory(error);
+    status = body->shape ? store_shape(body, error) : no_memory(error);
   }
-  if (status == SBF_OK) status = take_rate(body, error);
+  if (status == SBF_OK) status = measure_rate(body, error);
   if (status != SBF_OK) chart_hung_body_free(body);
   return status;
 }

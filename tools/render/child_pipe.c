@@ -54,7 +54,7 @@ bool child_pipe_write(child_pipe *child, const void *bytes, size_t size) {
   return true;
 }
 
-static void copy_said(FILE *file, char *said, size_t size) {
+static void copy_output(FILE *file, char *said, size_t size) {
   said[0] = 0;
   if (fseek(file, 0, SEEK_END) != 0) return;
   long end = ftell(file), start = end - (long)size + 1;
@@ -77,7 +77,7 @@ bool child_pipe_finish(child_pipe *child, char *said, size_t said_size) {
   if (child->input >= 0) close(child->input);
   child->input = -1;
   while (waitpid(child->process, &status, 0) < 0 && errno == EINTR) continue;
-  copy_said(child->said, said, said_size);
+  copy_output(child->said, said, said_size);
   fclose(child->said);
   *child = (child_pipe){.input = -1};
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;

@@ -9,7 +9,7 @@ static const float rim_width = 2.4f; /* sum of both sides */
 static const float lifted = 0.08f;
 
 /* Adds a vertex without triangle, which framing includes. */
-static void keep_in_picture(draw_scene *scene, sbf_vec3 position) {
+static void include_in_frame(draw_scene *scene, sbf_vec3 position) {
   draw_scene_space space;
   if (!draw_scene_reserve(scene, 1, 0, &space)) return;
   *space.positions = position;
@@ -20,8 +20,8 @@ static void keep_in_picture(draw_scene *scene, sbf_vec3 position) {
 void draw_scene_add_mark(draw_scene *scene, const draw_line *mark) {
   draw_line *stored = draw_scene_list_push(scene, &scene->marks, 1, sizeof *stored);
   if (stored) *stored = *mark;
-  keep_in_picture(scene, mark->from);
-  keep_in_picture(scene, mark->to);
+  include_in_frame(scene, mark->from);
+  include_in_frame(scene, mark->to);
 }
 
 static void push_ring(draw_scene *scene, draw_scene_list *list, sbf_vec3 centre, sbf_vec3 normal,

@@ -61,7 +61,7 @@ static float next_line(const terrain_grid *grid, int axis, float coordinate) {
   return (floorf(coordinate / step + 0.001f) + 1) * step;
 }
 
-static void lay_lines(terrain_grid *grid, int axis) {
+static void add_lines(terrain_grid *grid, int axis) {
   float end = grid->middle[axis] + grid->radius, coarse = 4 * grid->cell;
   float coordinate = floorf((grid->middle[axis] - grid->radius) / coarse) * coarse;
   int jumps = 0;
@@ -83,8 +83,8 @@ void draw_scene_set_terrain(
       .height = height, .user = user, .middle = {x, z}, .radius = radius, .cell = radius / 168};
   draw_scene_clear_ground(scene);
   if (!(radius > 0) || !isfinite(x) || !isfinite(z)) return;
-  lay_lines(&grid, 0);
-  lay_lines(&grid, 1);
+  add_lines(&grid, 0);
+  add_lines(&grid, 1);
   uint32_t wide = grid.counts[0], deep = grid.counts[1], vertices = wide * deep;
   uint32_t index_count = 6 * (wide - 1) * (deep - 1);
   sbf_vec3 *at = draw_scene_list_push(scene, &scene->ground_positions, vertices, sizeof *at);

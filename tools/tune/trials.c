@@ -39,7 +39,7 @@ static tune_trial *add(sweep *s, uint32_t mesh, const chart_setting *setting) {
   return &t->at[t->count++];
 }
 
-static void keep_finding(void *user, const sbf_diagnostic *diagnostic) {
+static void store_finding(void *user, const sbf_diagnostic *diagnostic) {
   tune_trial *trial = user;
   snprintf(trial->error.why, sizeof trial->error.why, "%.120s", diagnostic->message);
 }
@@ -62,7 +62,7 @@ static bool count_visits(const sweep *s, tune_trial *trial) {
   sbr_model_get_detail_levels(model, &detail_level, 1);
   trial->visits = (double)detail_level.visits;
   trial->element_visits = chart_visits_of(model, asset, &trial->setting);
-  trial->refused = sbr_model_report_scheme_bias(model, keep_finding, trial) > 0;
+  trial->refused = sbr_model_report_scheme_bias(model, store_finding, trial) > 0;
   sbr_model_destroy(model);
   return true;
 }
@@ -162,7 +162,7 @@ static sbf_status hold(sweep *s, uint32_t number, tune_bar *bar, double *best) {
 }
 
 /* In order of visits, so promised errors on the front decrease. */
-static sbf_status hold_each(sweep *s, bool far) {
+static sbf_status test_each(sweep *s, bool far) {
   tune_trials *t = s->to;
   tune_bar bar = {.error_m = INFINITY, .by = s->effort->by, .far = far};
   double all = 0, done = 0, best = INFINITY;
@@ -180,12 +180,12 @@ static sbf_status hold_each(sweep *s, bool far) {
 }
 
 /* If all have large errors, the closest is better than none. */
-static sbf_status hold_all(sweep *s) {
+static sbf_status test_all(sweep *s) {
   tune_trials *t = s->to;
   t->front = calloc((size_t)t->count + 1, sizeof *t->front);
   if (!t->front) return no_memory(s);
-  sbf_status status = hold_each(s, false);
-  if (status == SBF_OK && !t->front_count) status = hold_each(s, true);
+  sbf_status status = test_each(s, false);
+  if (status == SBF_OK && !t->front_count) status = test_each(s, true);
   if (status != SBF_OK || t->front_count) return status;
   fault_set(s->error, SBF_CODE_BAD_CALL,
       "nothing that was tried holds through its walk, hop and shake, what it has now not either (%s): make "
@@ -227,7 +227,7 @@ static sbf_status time_front(sweep *s) {
 sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard, const tune_yardstick *other,
     const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error) {
   sweep s = {.meshes = meshes, .yard = yard, .other = other, .effort = effort, .to = trials, .error = error};
-  sbf_status status = hold_all(&s);
+  sbf_status status = test_all(&s);
   if (status == SBF_OK) status = time_front(&s);
   return status;
 }

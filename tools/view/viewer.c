@@ -190,7 +190,7 @@ static sbf_status choose(viewer *v, SDL_Keycode key, sbf_diagnostic *error) {
   return SBF_OK;
 }
 
-static sbf_status take_key(viewer *v, const SDL_KeyboardEvent *event, sbf_diagnostic *error) {
+static sbf_status handle_key(viewer *v, const SDL_KeyboardEvent *event, sbf_diagnostic *error) {
   SDL_Keycode key = event->keysym.sym;
   bool down = event->state == SDL_PRESSED;
   if (event->keysym.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) return SBF_OK;
@@ -214,7 +214,7 @@ sbf_status viewer_take(viewer *v, const SDL_Event *event, sbf_diagnostic *error)
     break;
   case SDL_KEYDOWN:
   case SDL_KEYUP:
-    return take_key(v, &event->key, error);
+    return handle_key(v, &event->key, error);
   case SDL_MOUSEBUTTONDOWN:
     if (event->button.button == SDL_BUTTON_LEFT) press(v, event->button.x, event->button.y);
     break;

@@ -269,7 +269,7 @@ static double visibility(const part *p) {
 
 /* Keeps the most visible parts. Equally visible parts, such as left and right, are kept or dropped
  * together. */
-static void keep_largest(const work *w) {
+static void select_largest(const work *w) {
   double bound = 0;
   for (uint32_t b = 0; b < w->asset->bones.count; b++) {
     uint32_t larger = 0;
@@ -386,7 +386,7 @@ static bool is_wanted_soft(const work *w, const sbf_soft_body *body) {
 }
 
 /* Uses the object as the hull of the bone's rigid body, unless a part of a skin provides one. */
-static bool give_hull(const work *w, const sbf_soft_body *body) {
+static bool add_hull(const work *w, const sbf_soft_body *body) {
   const sbf_rigid_body_list *all = &w->asset->rigid_bodies;
   if (is_part(w, (uint32_t)body->bone)) return true;
   for (uint32_t i = 0; i < all->count; i++) {
@@ -431,7 +431,7 @@ static bool make_props_rigid(const work *w) {
   for (uint32_t i = 0; i < count; i++) {
     if (bodies[i].bone == SBF_NONE || is_wanted_soft(w, &bodies[i]))
       bodies[kept++] = bodies[i];
-    else if (!give_hull(w, &bodies[i]))
+    else if (!add_hull(w, &bodies[i]))
       return false;
   }
   w->c->asset->soft_bodies.count = kept;
@@ -451,7 +451,7 @@ static sbf_status decide(work *w) {
   join_twins(w);
   for (uint32_t b = 0; b < w->asset->bones.count; b++) w->parts[b].why = machine ? MACHINE : by_kind(w, b);
   check_thickness(w);
-  keep_largest(w);
+  select_largest(w);
   sbf_status status = apply_requests(w, o->soft, o->soft_count, SOFT);
   if (status == SBF_OK) status = apply_requests(w, o->rigid, o->rigid_count, ASKED);
   if (status != SBF_OK) return status;

@@ -29,7 +29,7 @@ static bool direction(const double from[3], const double to[3], double heading[3
   return length > 0;
 }
 
-static void turn_about(const double axis[3], double angle, double rotation[4]) {
+static void rotation_about(const double axis[3], double angle, double rotation[4]) {
   for (int k = 0; k < 3; k++) rotation[k] = axis[k] * sin(angle / 2);
   rotation[3] = cos(angle / 2);
 }
@@ -135,7 +135,7 @@ static void curl_fingers(
       /* The axis rotates the finger's direction downwards: along x it is (0, -1, 0). */
       const double axis[3] = {along[2] / size, 0, -along[0] / size};
       double rotation[4];
-      turn_about(axis, FINGER[joint] * DEGREE, rotation);
+      rotation_about(axis, FINGER[joint] * DEGREE, rotation);
       set_turn(pose, bone, rotation);
       bone = next;
     }
@@ -173,7 +173,7 @@ static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose
     direction(zero, hinge, ahead);
     sbfi_quatd_conjugate(rotation, undo);
     sbfi_quatd_rotate(undo, ahead, axis);
-    turn_about(axis, (ELBOW - bent) * DEGREE, bend);
+    rotation_about(axis, (ELBOW - bent) * DEGREE, bend);
     set_turn(pose, arm->lower, bend);
   }
   if (has_hand) curl_fingers(view, arm->hand, lower, pose);

@@ -10,7 +10,7 @@ static const double TWIN_SEPARATION = 0.4; /* the same for limbs in different po
 static const double ROUND_EXTENT = 0.8; /* minimum ratio of a disc's height and length, smaller by greater */
 static const double ROUND_RADIUS = 0.8; /* minimum ratio of a disc's radii by sector, smallest by greatest */
 
-static void take_point(double low[3], double high[3], sbf_vec3 point) {
+static void extend_box(double low[3], double high[3], sbf_vec3 point) {
   const double p[3] = {(double)point.x, (double)point.y, (double)point.z};
   for (int k = 0; k < 3; k++) {
     low[k] = fmin(low[k], p[k]);
@@ -170,7 +170,7 @@ bool sbfi_find_limbs(const sbfi_gait_draft *d, const sbfi_rig_points *points, sb
   for (uint32_t i = 0; i < points->count; i++) {
     if (limb_of[points->bone[i]] == SBF_NONE) continue;
     sbfi_limb_shape *limb = &limbs[limb_of[points->bone[i]]];
-    take_point(limb->low, limb->high, points->at[i]);
+    extend_box(limb->low, limb->high, points->at[i]);
     limb->points++;
     if (holds[points->bone[i]]++ == 0) limb->bones++;
   }

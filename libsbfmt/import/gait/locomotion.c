@@ -147,7 +147,7 @@ typedef struct slice {
   uint32_t points;
 } slice;
 
-static void take_slices(const evaluation *j, slice slices[BINS]) {
+static void measure_slices(const evaluation *j, slice slices[BINS]) {
   for (int b = 0; b < BINS; b++) slices[b] = (slice){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
   for (uint32_t i = 0; i < j->points.count; i++) {
     double t = ((double)j->points.at[i].z - j->points.low[2]) / j->length;
@@ -171,7 +171,7 @@ static void score_body(evaluation *j, const uint32_t *holds) {
   double span, lying = 0, widest = 0;
   uint32_t bones = measure_middle(j, holds, &span);
   if (!(j->length > 0)) return;
-  take_slices(j, slices);
+  measure_slices(j, slices);
   for (int b = 0; b < BINS; b++) {
     lying += slices[b].points && slices[b].low[1] < j->points.low[1] + 0.1 * j->height;
     widest = fmax(widest, area_of(&slices[b]));

@@ -67,7 +67,7 @@ static void key_of(const double rest[4], const double posed[4], double key[4]) {
 }
 
 /* Reads the first frame of a clip as rotations from rest. */
-static bool take_clip(sbfi_conversion *c, const sbf_clip *clip, const bool *alone, double (*turns)[4],
+static bool use_clip(sbfi_conversion *c, const sbf_clip *clip, const bool *alone, double (*turns)[4],
     bool *turned, bool *any) {
   const sbf_asset *a = c->asset;
   sbfi_clip_poses poses;
@@ -202,7 +202,7 @@ static bool propose(sbfi_conversion *c, sbf_gait *gait) {
   pose_work rest;
   sbf_pose *poses = sbfi_convert_allocate(c, 1 + 2 * SWINGS, sizeof *poses);
   if (!alone || !poses || !start(c, &rest) || !sbfi_view_rig(&view, a, 0, &c->scratch)) return false;
-  if (idle && !take_clip(c, idle, alone, rest.turns, rest.turned, &any)) return false;
+  if (idle && !use_clip(c, idle, alone, rest.turns, rest.turned, &any)) return false;
   uint32_t arm_count = sbfi_draft_arms(&view, gait, arms), count = 0;
   if (!idle) {
     sbfi_pose_draft draft = {rest.turns, rest.turned, a->bones.count};

@@ -192,7 +192,7 @@ static void *arena_allocate(division *d, size_t count, size_t size) {
 }
 
 /* Copies the entries of a corner attribute that the mesh uses, and renumbers its corners. */
-static bool take_corners(
+static bool copy_corners(
     division *d, uint32_t mesh, uint32_t kind, uint32_t corner_count, int32_t **indices) {
   const gathered *g = &d->kinds[kind];
   for (uint32_t k = g->starts[mesh]; k < g->starts[mesh + 1]; k++)
@@ -222,7 +222,7 @@ static bool make_polygons(division *d, uint32_t mesh, sbfi_scene_mesh *to) {
   to->polygon_starts = starts;
   to->polygon_materials = materials;
   to->corner_count = starts[to->polygon_count];
-  if (!take_corners(d, mesh, SBFI_OBJ_POINT, to->corner_count, &points)) return false;
+  if (!copy_corners(d, mesh, SBFI_OBJ_POINT, to->corner_count, &points)) return false;
   to->corner_points = (const uint32_t *)points;
   return true;
 }
@@ -248,7 +248,7 @@ static bool make_normals(division *d, uint32_t mesh, sbfi_scene_mesh *to) {
   if (!count) return true;
   sbf_vec3 *normals = arena_allocate(d, count, sizeof *normals);
   int32_t *corners;
-  if (!normals || !take_corners(d, mesh, SBFI_OBJ_NORMAL, to->corner_count, &corners)) return false;
+  if (!normals || !copy_corners(d, mesh, SBFI_OBJ_NORMAL, to->corner_count, &corners)) return false;
   for (uint32_t i = 0; i < count; i++) normals[i] = all[g->items[first + i]];
   to->normal_count = count;
   to->normals = normals;
@@ -264,7 +264,7 @@ static bool make_uvs(division *d, uint32_t mesh, sbfi_scene_mesh *to) {
   sbfi_scene_uvs *set = arena_allocate(d, 1, sizeof *set);
   sbf_vec2 *uvs = arena_allocate(d, count, sizeof *uvs);
   int32_t *corners;
-  if (!set || !uvs || !take_corners(d, mesh, SBFI_OBJ_UV, to->corner_count, &corners)) return false;
+  if (!set || !uvs || !copy_corners(d, mesh, SBFI_OBJ_UV, to->corner_count, &corners)) return false;
   for (uint32_t i = 0; i < count; i++) uvs[i] = all[g->items[first + i]];
   *set = (sbfi_scene_uvs){"", count, uvs, corners};
   to->uv_set_count = 1;

@@ -171,7 +171,7 @@ static bool read_node(paper_reader *r, attribute_list attributes) {
   return node && read_id(r, attributes, "v", 0, node);
 }
 
-static bool read_carried(paper_reader *r, attribute_list attributes) {
+static bool read_embedding(paper_reader *r, attribute_list attributes) {
   static const char *const names[3] = {"v0", "v1", "v2"};
   sbfi_paper_embedding *carried = push(r, &r->body->carried);
   if (!carried || !read_id(r, attributes, "render_id", 0, &carried->vertex) ||
@@ -284,7 +284,7 @@ static bool begin(paper_reader *r, location is, attribute_list attributes) {
   case FACE_NODE:
     return read_corner(r, attributes);
   case CARRIED:
-    return read_carried(r, attributes);
+    return read_embedding(r, attributes);
   case LIMIT:
     return read_limit(r, attributes);
   default:

@@ -119,7 +119,7 @@ static uint32_t common_divisor(uint32_t a, uint32_t b) {
 
 /* Takes all points if they are few, in the same steps: the first ones may belong to an object that the rig
  * does not have. */
-static void take_samples(search *s) {
+static void sample_points(search *s) {
   uint32_t count = s->r->input.mesh.positions.count, step = (uint32_t)(0.618 * count) + 1;
   s->sample_count = count < SAMPLES ? count : SAMPLES;
   while (common_divisor(step, count) != 1) step++;
@@ -322,7 +322,7 @@ bool sbfi_align_by_points(sbfi_rigging *r, bool *found) {
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
   double within = sbfi_match_tolerance(r, r->rig.size / r->input.size, s.quantum);
   bool good = sbfi_point_finder_make(&s.finder, rig.at, rig.count, within, &scratch);
-  take_samples(&s);
+  sample_points(&s);
   if (good) {
     consider(&s, &r->c->to_asset);
     if (s.best_fraction < 0.999) consider_usual(&s);

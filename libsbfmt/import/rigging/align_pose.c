@@ -44,7 +44,7 @@ static bool apply_pose(sbfi_rigging *r, const sbfi_pose_fit *f) {
 
 /* --- What was found ------------------------------------------------------------------------------------ */
 
-static double turn_of(const sbfi_pose_fit *f, uint32_t bone) {
+static double rotation_of(const sbfi_pose_fit *f, uint32_t bone) {
   return 2 * asin(fmin(0.5 * sbfi_d3_length(sbfi_pose_fit_rotation_vector(f, bone)), 1));
 }
 
@@ -53,16 +53,16 @@ static void report_pose(const sbfi_pose_fit *f, const sbfi_pose_gaps *gaps) {
   char text[600] = "";
   double last = INFINITY;
   uint32_t named = 0, count = 0;
-  for (uint32_t b = 0; b < f->bone_count; b++) count += turn_of(f, b) >= REPORTED;
+  for (uint32_t b = 0; b < f->bone_count; b++) count += rotation_of(f, b) >= REPORTED;
   for (; named < MAX_NAMED; named++) {
     uint32_t widest = UINT32_MAX;
     for (uint32_t b = 0; b < f->bone_count; b++) {
-      double angle = turn_of(f, b);
-      if (angle >= REPORTED && angle < last && (widest == UINT32_MAX || angle > turn_of(f, widest)))
+      double angle = rotation_of(f, b);
+      if (angle >= REPORTED && angle < last && (widest == UINT32_MAX || angle > rotation_of(f, widest)))
         widest = b;
     }
     if (widest == UINT32_MAX) break;
-    last = turn_of(f, widest);
+    last = rotation_of(f, widest);
     size_t used = strlen(text);
     snprintf(text + used, sizeof text - used, "%s'%.40s' by %.0f degrees", named ? ", " : "",
         f->bones[widest].name, last * 57.29577951308232);
@@ -122,7 +122,7 @@ static bool fit_from_usual(const sbfi_rigging *r, sbfi_pose_fit *f, sbfi_arena *
 
 static double widest_turn(const sbfi_pose_fit *f) {
   double widest = 0;
-  for (uint32_t b = 0; b < f->bone_count; b++) widest = fmax(widest, turn_of(f, b));
+  for (uint32_t b = 0; b < f->bone_count; b++) widest = fmax(widest, rotation_of(f, b));
   return widest;
 }
 

@@ -58,7 +58,7 @@ static void sample(const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays, sbf
   }
 }
 
-static void take_to_surface(const sbfi_weight_mesh *mesh, sbfi_body_core *core) {
+static void project_to_surface(const sbfi_weight_mesh *mesh, sbfi_body_core *core) {
   double sum = 0;
   for (uint32_t i = 0; i < core->count; i++) sum += core->points[i].weight;
   for (uint32_t i = 0; i < core->count; i++) {
@@ -86,7 +86,7 @@ bool sbfi_body_core_find(const sbfi_scene_surface *surface, sbfi_body_core *core
   sbf_polygon_mesh triangles = sbfi_weight_mesh_surface(&mesh, sizes);
   if (!sbfi_body_rays_make(&rays, &triangles, arena)) return false;
   sample(&mesh, &rays, core);
-  take_to_surface(&mesh, core);
+  project_to_surface(&mesh, core);
   return true;
 }
 

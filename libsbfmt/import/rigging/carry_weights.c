@@ -105,14 +105,15 @@ static void add_weights(
   }
 }
 
-static void take_weights(carrying *c, uint32_t point, sbfi_influences *weights) {
+static void copy_weights(carrying *c, uint32_t point, sbfi_influences *weights) {
   sbfi_influences_finish(weights);
   c->r->weights[point] = *weights;
   if (weights->at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_CARRIED;
 }
 
 /* For a thin part of the rig that the input has as a sheet: blends both sides, the nearer one more. */
-static void carry_sheet(carrying *c, uint32_t point, sbfi_d3 position, const sbfi_surface_location *near) {
+static void transfer_to_sheet(
+    carrying *c, uint32_t point, sbfi_d3 position, const sbfi_surface_location *near) {
   double size = c->r->rig.size, min = 1e-6 * size;
   sbfi_d3 back = sbfi_d3_scale(sbfi_surface_normal(&c->r->rig, near), -1);
   sbfi_influences weights = {0};
@@ -122,10 +123,10 @@ static void carry_sheet(carrying *c, uint32_t point, sbfi_d3 position, const sbf
   add_weights(c, near, 1 / (near->distance + min), &weights);
   if (sbfi_surface_nearest(&c->finder, position, &back, SHEET * near->distance + min, &other))
     add_weights(c, &other, 1 / (other.distance + min), &weights);
-  take_weights(c, point, &weights);
+  copy_weights(c, point, &weights);
 }
 
-static void carry_point(carrying *c, uint32_t point, double sign) {
+static void transfer_to_point(carrying *c, uint32_t point, double sign) {
   double size = c->r->rig.size;
   sbfi_surface_location near, facing;
   sbfi_d3 position = sbfi_d3_of(c->moved->mesh.positions.at[point]);
@@ -140,7 +141,7 @@ static void carry_point(carrying *c, uint32_t point, double sign) {
       c->r->c->bone_of_node[beside->node] == SBF_NONE)
     c->bare[point] = beside->node;
   if (!(sbfi_d3_length(normal) > 0)) {
-    carry_sheet(c, point, position, &near);
+    transfer_to_sheet(c, point, position, &near);
     return;
   }
   if (near.distance <= FARTHEST * size && sbfi_d3_dot(sbfi_surface_normal(&c->r->rig, &near), normal) < 0)
@@ -152,7 +153,7 @@ static void carry_point(carrying *c, uint32_t point, double sign) {
   if (facing.distance <= ALONG * size) c->stands[point] = LIES_ALONG;
   sbfi_influences weights = {0};
   add_weights(c, &facing, 1, &weights);
-  take_weights(c, point, &weights);
+  copy_weights(c, point, &weights);
 }
 
 /* --- Where no surface near faces as the point does ----------------------------------------------------- */
@@ -342,20 +343,20 @@ static int32_t bare_node_of(const carrying *c, uint32_t mesh) {
   return on >= MIN_BARE * (to - from) ? node : SBF_NONE;
 }
 
-static void hang_bare_objects(carrying *c) {
+static void attach_bare_objects(carrying *c) {
   sbfi_rigging *r = c->r;
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
     if (r->carriers[m] == SBF_NONE) r->carriers[m] = bare_node_of(c, m);
 }
 
-static void carry_objects(carrying *c) {
+static void transfer_to_objects(carrying *c) {
   sbfi_rigging *r = c->r;
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
     bool away = faces_away(c, m), mirrored = sbfi_matrix_determinant(&r->alignment.to_asset) < 0;
     r->turned[m] = away != mirrored; /* a mirrored mesh is flipped later anyway */
     if (r->carriers[m] != SBF_NONE) continue;
     for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++)
-      if (is_open(c, i)) carry_point(c, i, away ? -1 : 1);
+      if (is_open(c, i)) transfer_to_point(c, i, away ? -1 : 1);
     if (bare_node_of(c, m) == SBF_NONE) continue;
     for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++)
       r->sources[i] = SBFI_WEIGHTS_CARRIED;
@@ -380,9 +381,9 @@ bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, do
     c.nearest[i] = r->weights[i].at[0].weight > 0 && r->weights[i].at[1].weight <= 0
                        ? (int32_t)r->weights[i].at[0].node
                        : SBF_NONE;
-  if (good) carry_objects(&c);
+  if (good) transfer_to_objects(&c);
   *fraction = good ? weighted_fraction(r) : 0;
-  if (good && *fraction >= min) hang_bare_objects(&c);
+  if (good && *fraction >= min) attach_bare_objects(&c);
   if (good && *fraction >= min)
     good = stiffen_pieces(&c) && attach_pieces(&c) && drop_outliers(&c) && spread(&c);
   for (uint32_t i = 0; *fraction < min && i < count; i++)

@@ -116,7 +116,7 @@ static double cost_of_turn(const sbfi_limb_fit *f, sbfi_d3 joint, const double r
 /* --- Limbs --------------------------------------------------------------------------------------------- */
 
 /* Selects the limb of a bone: its length and direction. False if it is too large or too small to rotate. */
-static bool take_limb(sbfi_limb_fit *f, uint32_t first, double *length, sbfi_d3 *direction) {
+static bool measure_limb(sbfi_limb_fit *f, uint32_t first, double *length, sbfi_d3 *direction) {
   double farthest = 0;
   sbfi_d3 joint = head_of(f, first);
   *length = 0;
@@ -160,7 +160,7 @@ static void turn(sbfi_limb_fit *f, uint32_t bone, const double rotation[4]) {
   }
 }
 
-static void turn_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
+static void rotation_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
   sbfi_quatd_between(
       (const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
@@ -185,7 +185,7 @@ static double find_turn(const sbfi_limb_fit *f, sbfi_d3 joint, sbfi_d3 direction
     }
     if (in_plane) to = sbfi_d3_normal((sbfi_d3){direction.x, to.y, to.z});
     if (sbfi_d3_dot(to, direction) < FARTHEST) continue;
-    turn_between(direction, to, rotation);
+    rotation_between(direction, to, rotation);
     double cost = cost_of_turn(f, joint, rotation) + cost_of_angle(fraction, rotation);
     if (cost >= best) continue;
     best = cost;
@@ -199,7 +199,7 @@ static double find_turn_of(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *direc
     double rotation[4], double *length) {
   static const double none[4] = {0, 0, 0, 1};
   sbfi_d3 direction;
-  if (!take_limb(f, bone, length, &direction)) return INFINITY;
+  if (!measure_limb(f, bone, length, &direction)) return INFINITY;
   measure_others(f);
   *before = cost_of_turn(f, head_of(f, bone), none);
   bool in_plane = f->is_middle && f->is_middle[bone];
@@ -260,7 +260,7 @@ static void search_bone(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directio
   double min_saving = as_twin ? GAIN_OF_TWIN : GAIN;
   if (f->is_middle && f->is_middle[bone]) min_saving = GAIN_IN_MIDDLE;
   if (saved < min_saving * fraction || is_child_better(f, bone, directions, length, saved) ||
-      !take_limb(f, bone, &length, &direction))
+      !measure_limb(f, bone, &length, &direction))
     return;
   turn(f, bone, rotation);
   f->is_turned[bone] = true;
@@ -300,7 +300,7 @@ static void descend_joint(sbfi_limb_fit *f, uint32_t bone, double step) {
   static const double none[4] = {0, 0, 0, 1};
   double length;
   sbfi_d3 direction;
-  if (!take_limb(f, bone, &length, &direction)) return;
+  if (!measure_limb(f, bone, &length, &direction)) return;
   measure_others(f);
   double best = cost_of_pose(f, bone, length, none);
   for (int k = 0; k < (f->is_middle && f->is_middle[bone] ? 2 : 6); k++) {
@@ -351,7 +351,7 @@ static void straighten(sbfi_limb_fit *f, uint32_t bone) {
   sbfi_d3 direction;
   if (!sbfi_matrix_invert(&old, &back)) return;
   back = sbfi_matrix_multiply(&above, &back);
-  take_limb(f, bone, &length, &direction);
+  measure_limb(f, bone, &length, &direction);
   for (uint32_t b = bone; b < f->bone_count; b++) {
     if (!f->below[b]) continue;
     bool is_same = memcmp(&f->motions[b], &old, sizeof old) == 0;

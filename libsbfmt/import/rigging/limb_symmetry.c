@@ -180,7 +180,7 @@ static sbfi_matrix translation(sbfi_d3 by) {
 }
 
 /* Copies the lines of one side; the middle is in the plane. */
-static bool take_lines(const sbfi_limb_symmetry *s, int side, sbfi_bone_lines *own, sbfi_arena *arena) {
+static bool copy_lines(const sbfi_limb_symmetry *s, int side, sbfi_bone_lines *own, sbfi_arena *arena) {
   *own = *s->lines;
   own->at = sbfi_arena_allocate(arena, (size_t)s->lines->count + 1, sizeof *own->at);
   if (!own->at) return false;
@@ -238,7 +238,7 @@ static sbfi_matrix mirrored_motion(const sbfi_matrix *motion, double plane) {
 }
 
 /* Computes the pose of all bones from that of one side. */
-static bool take_both(const sbfi_limb_symmetry *s, double plane, int side, const sbfi_limb_fit *half,
+static bool pose_from_side(const sbfi_limb_symmetry *s, double plane, int side, const sbfi_limb_fit *half,
     sbfi_limb_fit *f, sbfi_arena *arena) {
   double(*turns)[4] = sbfi_arena_allocate(arena, (size_t)f->bone_count + 1, sizeof *turns);
   bool *is_moved = sbfi_arena_allocate(arena, (size_t)f->bone_count + 1, sizeof *is_moved);
@@ -268,7 +268,7 @@ bool sbfi_limb_symmetry_search(sbfi_limb_symmetry *s, double plane, int side, co
   sbfi_limb_fit *half = sbfi_arena_allocate(arena, 1, sizeof *half);
   bool *middle = sbfi_arena_allocate(arena, (size_t)s->r->c->asset->bones.count + 1, sizeof *middle);
   sbfi_bone_lines own;
-  if (!half || !middle || !take_lines(s, side, &own, arena) ||
+  if (!half || !middle || !copy_lines(s, side, &own, arena) ||
       !sbfi_limb_fit_begin(half, s->r, &own, core, arena) ||
       !sbfi_limb_fit_begin(f, s->r, s->lines, core, arena))
     return false;
@@ -282,5 +282,5 @@ bool sbfi_limb_symmetry_search(sbfi_limb_symmetry *s, double plane, int side, co
   fold_core(s, plane, side, &half->core);
   sbfi_limb_fit_update_lines(half, (sbfi_d3){0, 0, 0});
   sbfi_limb_fit_search(half);
-  return take_both(s, plane, side, half, f, arena);
+  return pose_from_side(s, plane, side, half, f, arena);
 }

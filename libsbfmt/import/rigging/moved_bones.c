@@ -6,7 +6,7 @@
 #include "import/rigging/similarity.h"
 #include "motion/quatd.h"
 
-static void turn_quaternion(const sbfi_matrix *m, double to[4]) {
+static void quaternion_of(const sbfi_matrix *m, double to[4]) {
   double trace = m->at[0][0] + m->at[1][1] + m->at[2][2];
   double squares[4] = {
       1 + 2 * m->at[0][0] - trace, 1 + 2 * m->at[1][1] - trace, 1 + 2 * m->at[2][2] - trace, 1 + trace};
@@ -30,7 +30,7 @@ static void move_bones(const sbfi_matrix *motions, sbf_bone *bones, uint32_t cou
   for (uint32_t b = 0; b < count; b++) {
     sbf_quat *q = &bones[b].rotation;
     double turn[4], rotation[4] = {(double)q->x, (double)q->y, (double)q->z, (double)q->w};
-    turn_quaternion(&motions[b], turn);
+    quaternion_of(&motions[b], turn);
     sbfi_quatd_multiply(turn, rotation, rotation);
     *q = (sbf_quat){(float)rotation[0], (float)rotation[1], (float)rotation[2], (float)rotation[3]};
     bones[b].head = sbfi_d3_rounded(sbfi_similarity_apply(&motions[b], sbfi_d3_of(bones[b].head)));

@@ -27,7 +27,7 @@ static double area_of_all(const sbfi_scene_surface *s) {
 }
 
 /* Samples evenly along the triangles, concatenated by area; a low discrepancy sequence within each. */
-static void take_samples(const sbfi_scene_surface *s, sbfi_surface_sample *samples) {
+static void sample_surface(const sbfi_scene_surface *s, sbfi_surface_sample *samples) {
   const uint32_t *points = s->mesh.polygon_points.at;
   double step = area_of_all(s) / SBFI_POSE_SAMPLES, passed = 0;
   uint32_t count = 0;
@@ -94,7 +94,7 @@ static bool make_posed(sbfi_pose_fit *f) {
 }
 
 /* Orients the points' normals outwards. */
-static void turn_normals(sbfi_pose_fit *f) {
+static void rotate_normals(sbfi_pose_fit *f) {
   sbf_vec3 *normals = (sbf_vec3 *)(uintptr_t)f->input.normals; /* owned by `input_arena` */
   for (uint32_t i = 0; f->sign < 0 && i < f->input.mesh.positions.count; i++)
     normals[i] = (sbf_vec3){-normals[i].x, -normals[i].y, -normals[i].z};
@@ -104,7 +104,7 @@ bool sbfi_pose_fit_move_input(sbfi_pose_fit *f) {
   sbfi_arena_free(&f->input_arena);
   sbfi_arena_init(&f->input_arena, &f->arena->allocator, 0);
   if (!sbfi_surface_move(&f->input, &f->r->input, &f->to_asset, &f->input_arena)) return false;
-  turn_normals(f);
+  rotate_normals(f);
   return sbfi_surface_finder_make(&f->input_finder, &f->input, &f->input_arena);
 }
 
@@ -140,12 +140,12 @@ bool sbfi_pose_fit_begin(sbfi_pose_fit *f, const sbfi_rigging *r, sbfi_arena *ar
   f->rig_samples = sbfi_arena_allocate(arena, SBFI_POSE_SAMPLES, sizeof *f->rig_samples);
   if (!f->motions || !f->input_samples || !f->rig_samples || !sbfi_pose_fit_move_input(f)) return false;
   for (uint32_t b = 0; b < bones.count; b++) f->motions[b] = sbfi_matrix_identity();
-  take_samples(&f->input, f->input_samples);
-  take_samples(&r->rig, f->rig_samples);
+  sample_surface(&f->input, f->input_samples);
+  sample_surface(&r->rig, f->rig_samples);
   if (!make_posed(f)) return false;
   locate_samples(&f->input, 1, f->input_samples);
   find_sign(f);
-  turn_normals(f);
+  rotate_normals(f);
   return sbfi_pose_fit_update(f);
 }
 

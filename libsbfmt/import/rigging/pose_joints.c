@@ -142,7 +142,7 @@ static bool solve(system *s) {
   return true;
 }
 
-static void turn_bones(system *s) {
+static void rotate_bones(system *s) {
   static const double farthest = 0.5; /* rad per step */
   for (uint32_t b = 0; b < s->f->bone_count; b++) {
     if (!s->columns[b]) continue;
@@ -213,7 +213,7 @@ bool sbfi_pose_fit_joints(sbfi_pose_fit *f, double within, bool free_input) {
     add_pulls(&s, within);
     add_costs(&s, cost);
     if (!solve(&s)) return true;
-    turn_bones(&s);
+    rotate_bones(&s);
     if (!sbfi_pose_fit_update(f)) return false;
     if (free_input && (!move_input(f, within) || !sbfi_pose_fit_update(f))) return false;
     within = fmax(LAST_WITHIN, NEARER * within);

@@ -44,7 +44,7 @@ static double weight_below(const sbfi_pose_fit *f, const sbfi_surface_sample *s,
 }
 
 /* Selects the samples that a bone moves; false if the limb has no differing pose. */
-static bool take_limb(const search *s, uint32_t bone, limb *l) {
+static bool measure_limb(const search *s, uint32_t bone, limb *l) {
   const sbfi_pose_fit *f = s->f;
   uint32_t of_limb[SBFI_POSE_SAMPLES], beside = 0;
   double reach = 0, size = f->r->rig.size;
@@ -107,12 +107,12 @@ static double evaluate(const search *s, const limb *l, const double rotation[4])
   return lies / l->count + fmin(covers / l->all, 1);
 }
 
-static void turn_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
+static void rotation_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
   sbfi_quatd_between(
       (const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
 
-static void take_bare(search *s) {
+static void find_bare(search *s) {
   const sbfi_pose_fit *f = s->f;
   s->bare_count = 0;
   for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
@@ -131,7 +131,7 @@ static bool find_turn(const search *s, const limb *l, double best_rotation[4]) {
     sbfi_d3 to = s->directions[i];
     double rotation[4], cosine = sbfi_d3_dot(to, l->direction);
     if (cosine < FARTHEST) continue;
-    turn_between(l->direction, to, rotation);
+    rotation_between(l->direction, to, rotation);
     double sine = sqrt(fmax(1 - rotation[3] * rotation[3], 0)); /* of half the angle */
     double score = evaluate(s, l, rotation) - PER_RADIAN * 2 * sine;
     if (score <= best) continue;
@@ -150,8 +150,8 @@ bool sbfi_pose_search_limbs(sbfi_pose_fit *f) {
   sbfi_spread_directions(s->directions, DIRECTIONS);
   for (uint32_t b = 0; b < f->bone_count; b++) {
     double rotation[4];
-    if (f->bones[b].parent == SBF_NONE || !take_limb(s, b, l)) continue;
-    take_bare(s);
+    if (f->bones[b].parent == SBF_NONE || !measure_limb(s, b, l)) continue;
+    find_bare(s);
     if (!find_turn(s, l, rotation)) continue;
     sbfi_pose_fit_rotate(f, b, rotation);
     if (!sbfi_pose_fit_update(f)) return false;

@@ -74,7 +74,7 @@ static bool add_skin(
 /* --- Polygons that face the wrong way ------------------------------------------------------------------ */
 
 /* Reverses the corners of each polygon but keeps the first. */
-static void turn_corners(const sbfi_scene_mesh *mesh, const void *from, void *to) {
+static void reverse_corners(const sbfi_scene_mesh *mesh, const void *from, void *to) {
   const uint32_t *in = from;
   uint32_t *out = to;
   for (uint32_t p = 0; p < mesh->polygon_count; p++) {
@@ -83,22 +83,22 @@ static void turn_corners(const sbfi_scene_mesh *mesh, const void *from, void *to
   }
 }
 
-static bool turn_polygons(const sbfi_rigging *r, sbfi_scene_mesh *mesh) {
+static bool reverse_polygons(const sbfi_rigging *r, sbfi_scene_mesh *mesh) {
   uint32_t *points = allocate(r, mesh->corner_count, sizeof *points);
   int32_t *normals = allocate(r, mesh->corner_count, sizeof *normals);
   uint32_t *vertices = allocate(r, mesh->corner_count, sizeof *vertices);
   sbfi_scene_uvs *sets = allocate(r, mesh->uv_set_count, sizeof *sets);
   if (!points || !normals || !vertices || !sets) return false;
-  turn_corners(mesh, mesh->corner_points, points);
+  reverse_corners(mesh, mesh->corner_points, points);
   mesh->corner_points = points;
-  if (mesh->corner_normals) turn_corners(mesh, mesh->corner_normals, normals);
+  if (mesh->corner_normals) reverse_corners(mesh, mesh->corner_normals, normals);
   if (mesh->corner_normals) mesh->corner_normals = normals;
-  if (mesh->corner_vertices) turn_corners(mesh, mesh->corner_vertices, vertices);
+  if (mesh->corner_vertices) reverse_corners(mesh, mesh->corner_vertices, vertices);
   if (mesh->corner_vertices) mesh->corner_vertices = vertices;
   for (uint32_t s = 0; s < mesh->uv_set_count; s++) {
     int32_t *corners = allocate(r, mesh->corner_count, sizeof *corners);
     if (!corners) return false;
-    turn_corners(mesh, mesh->uv_sets[s].corner, corners);
+    reverse_corners(mesh, mesh->uv_sets[s].corner, corners);
     sets[s] = mesh->uv_sets[s];
     sets[s].corner = corners;
   }
@@ -130,7 +130,7 @@ bool sbfi_rigged_scene_build(const sbfi_rigging *r) {
     meshes[m].node = (int32_t)at;
     meshes[m].joint_count = 0;
     if (r->carriers[m] == SBF_NONE && has_weights(r, m) && !add_skin(r, m, nodes, &meshes[m])) return false;
-    if (r->turned[m] && !turn_polygons(r, &meshes[m])) return false;
+    if (r->turned[m] && !reverse_polygons(r, &meshes[m])) return false;
     sbfi_matrix to_asset = sbfi_matrix_multiply(&c->rig_to_asset, &nodes[at].world);
     if (r->alignment.pose_worlds && !sbfi_pose_undo(r, m, &to_asset, &meshes[m])) return false;
   }

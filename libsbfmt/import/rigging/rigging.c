@@ -232,7 +232,7 @@ static bool rig_has_weights(const sbfi_rigging *r) {
   return false;
 }
 
-static bool is_carried(const sbfi_rigging *r, uint32_t point) {
+static bool is_transferred(const sbfi_rigging *r, uint32_t point) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
     if (point < r->input.mesh_starts[m + 1]) return r->carriers[m] != SBF_NONE;
   return false;
@@ -242,7 +242,7 @@ static bool is_carried(const sbfi_rigging *r, uint32_t point) {
 static uint32_t count_open(const sbfi_rigging *r) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < r->input.mesh.positions.count; i++)
-    count += r->sources[i] == SBFI_WEIGHTS_NONE && !is_carried(r, i);
+    count += r->sources[i] == SBFI_WEIGHTS_NONE && !is_transferred(r, i);
   return count;
 }
 

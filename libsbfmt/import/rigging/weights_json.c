@@ -59,7 +59,7 @@ static char *put_utf8(char *to, uint32_t code) {
 }
 
 /* Parses an escape after its backslash; NULL if it is invalid. */
-static char *take_escape(reader *r, char *to) {
+static char *read_escape(reader *r, char *to) {
   static const char names[] = "\"\\/bfnrt", values[] = "\"\\/\b\f\n\r\t";
   const char *found = r->at < r->end && *r->at ? strchr(names, *r->at) : NULL;
   if (found) {
@@ -79,7 +79,7 @@ static char *take_escape(reader *r, char *to) {
   return code > 0 && (code < 0xD800 || code >= 0xE000) ? put_utf8(to, (uint32_t)code) : NULL;
 }
 
-static sbf_status take_string(reader *r, const char **text) {
+static sbf_status read_string(reader *r, const char **text) {
   if (!take(r, '"')) return fail(r, "a text in quotes");
   const char *close = r->at;
   while (close < r->end && *close != '"') close += *close == '\\' && close + 1 < r->end ? 2 : 1;
@@ -93,7 +93,7 @@ static sbf_status take_string(reader *r, const char **text) {
       continue;
     }
     r->at++;
-    to = take_escape(r, to);
+    to = read_escape(r, to);
     if (!to) return fail(r, "an escape");
   }
   r->at = close + 1;
@@ -102,7 +102,7 @@ static sbf_status take_string(reader *r, const char **text) {
 }
 
 /* Returns a number or a word as text. */
-static sbfi_span take_word(reader *r) {
+static sbfi_span read_word(reader *r) {
   skip_blanks(r);
   const char *from = r->at;
   while (r->at < r->end && !sbfi_is_space(*r->at) && !strchr(",]}:[{\"", *r->at)) r->at++;
@@ -117,7 +117,7 @@ static sbf_status skip_value(reader *r) {
     skip_blanks(r);
     if (r->at == r->end) return fail(r, "a value");
     if (*r->at == '"') {
-      sbf_status status = take_string(r, &text);
+      sbf_status status = read_string(r, &text);
       if (status != SBF_OK) return status;
     } else if (strchr("[{", *r->at)) {
       depth++;
@@ -127,7 +127,7 @@ static sbf_status skip_value(reader *r) {
       r->at++;
     } else if (strchr(",:", *r->at)) {
       r->at++;
-    } else if (!take_word(r).length) {
+    } else if (!read_word(r).length) {
       return fail(r, "a value");
     }
     if (depth < 0 || depth > DEEPEST) return fail(r, "a value of no such depth");
@@ -135,21 +135,21 @@ static sbf_status skip_value(reader *r) {
   return SBF_OK;
 }
 
-static sbf_status take_row(reader *r) {
+static sbf_status read_row(reader *r) {
   sbfi_span vertex = {0}, weight = {0};
   const char *bone = NULL, *key;
   uint32_t line = r->line;
   sbf_status status = take(r, '{') ? SBF_OK : fail(r, "an object with vertex, bone and weight");
   for (bool more = status == SBF_OK && !take(r, '}'); more && status == SBF_OK;) {
-    status = take_string(r, &key);
+    status = read_string(r, &key);
     if (status == SBF_OK && !take(r, ':')) status = fail(r, "':'");
     if (status != SBF_OK) break;
     if (strcmp(key, "vertex") == 0)
-      vertex = take_word(r);
+      vertex = read_word(r);
     else if (strcmp(key, "weight") == 0)
-      weight = take_word(r);
+      weight = read_word(r);
     else
-      status = strcmp(key, "bone") == 0 ? take_string(r, &bone) : skip_value(r);
+      status = strcmp(key, "bone") == 0 ? read_string(r, &bone) : skip_value(r);
     more = status == SBF_OK && take(r, ',');
     if (status == SBF_OK && !more && !take(r, '}')) status = fail(r, "',' or '}'");
   }
@@ -158,11 +158,11 @@ static sbf_status take_row(reader *r) {
   return sbfi_weights_rows_add(r->to, line, vertex, bone, weight);
 }
 
-static sbf_status take_rows(reader *r) {
+static sbf_status read_rows(reader *r) {
   if (!take(r, '[')) return fail(r, "a list of weights");
   if (take(r, ']')) return SBF_OK;
   sbf_status status;
-  do status = take_row(r);
+  do status = read_row(r);
   while (status == SBF_OK && take(r, ','));
   return status != SBF_OK || take(r, ']') ? status : fail(r, "',' or ']'");
 }
@@ -171,12 +171,12 @@ sbf_status sbfi_weights_rows_json(sbfi_weights_rows *to, sbfi_span text) {
   reader r = {to, text.at, text.at + text.length, 1};
   const char *key;
   skip_blanks(&r);
-  if (r.at < r.end && *r.at == '[') return take_rows(&r);
+  if (r.at < r.end && *r.at == '[') return read_rows(&r);
   if (!take(&r, '{')) return fail(&r, "a list, or an object with \"weights\"");
   while (!take(&r, '}')) {
-    sbf_status status = take_string(&r, &key);
+    sbf_status status = read_string(&r, &key);
     if (status == SBF_OK && !take(&r, ':')) status = fail(&r, "':'");
-    if (status == SBF_OK && strcmp(key, "weights") == 0) return take_rows(&r);
+    if (status == SBF_OK && strcmp(key, "weights") == 0) return read_rows(&r);
     if (status == SBF_OK) status = skip_value(&r);
     if (status != SBF_OK) return status;
     take(&r, ',');

@@ -70,7 +70,7 @@ static bool name_objects(sbfi_assembly *a) {
 }
 
 /* Formats with a unit that assimp 5.2.5 drops. */
-static bool say_lost_unit(sbfi_assembly *a) {
+static bool report_lost_unit(sbfi_assembly *a) {
   bool lost = strcmp(a->scene->format, "3mf") == 0 || strcmp(a->scene->format, "amf") == 0;
   return !lost || sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_UNIT, 0,
                       "a %s file states its unit, usually millimetres, and the importer does not hand it on: "
@@ -100,7 +100,7 @@ sbf_status sbfi_assemble(
   scene->generator = sbfi_scene_string(scene, raw->generator);
   bool good = scene->generator && sbfi_assemble_frame(&a) && sbfi_assemble_nodes(&a) && check_worlds(&a) &&
               sbfi_assemble_bones(&a) && sbfi_assemble_materials(&a) && sbfi_assemble_meshes(&a) &&
-              name_objects(&a) && say_lost_unit(&a) && sbfi_assemble_clips(&a) && check_content(&a);
+              name_objects(&a) && report_lost_unit(&a) && sbfi_assemble_clips(&a) && check_content(&a);
   sbfi_name_table_free(&a.names);
   sbfi_arena_free(&a.scratch);
   if (good) return SBF_OK;

@@ -298,7 +298,7 @@ static bool weld(joining *j) {
   return true;
 }
 
-static bool take_skin(joining *j) {
+static bool copy_skin(joining *j) {
   sbfi_scene_mesh *to = j->to;
   if (!to->joint_count) return true;
   uint32_t *starts = allocate(j, (size_t)to->point_count + 1, sizeof *starts);
@@ -337,7 +337,7 @@ static const sbfi_raw_mesh *part_of(const joining *j, uint32_t vertex, uint32_t 
   return j->parts[low];
 }
 
-static bool take_shapes(joining *j) {
+static bool copy_shapes(joining *j) {
   sbfi_scene_mesh *to = j->to;
   if (!j->shape_count) return true;
   sbfi_scene_shape *shapes = allocate(j, j->shape_count, sizeof *shapes);
@@ -375,7 +375,7 @@ static sbfi_scene_group *group_named(joining *j, sbfi_scene_group *groups, const
 }
 
 /* Creates groups from bones without a node; merged vertices take the maximum. */
-static bool take_groups(joining *j) {
+static bool copy_groups(joining *j) {
   if (!j->nodeless_count) return true;
   sbfi_scene_group *groups = allocate(j, j->nodeless_count, sizeof *groups);
   if (!groups) return false;
@@ -414,7 +414,7 @@ static const float *uvs_of(const sbfi_raw_mesh *part, uint32_t set) {
 }
 
 /* Collects the distinct values of an attribute (`width` numbers each) and the index of each corner. */
-static bool take_attribute(joining *j, attribute of, uint32_t set, uint32_t width, float **values,
+static bool copy_attribute(joining *j, attribute of, uint32_t set, uint32_t width, float **values,
     uint32_t *count, int32_t **corner_values) {
   sbfi_scene_mesh *to = j->to;
   int32_t *value_of_vertex = scratch(j, j->vertex_count, sizeof *value_of_vertex);
@@ -441,7 +441,7 @@ static bool take_attribute(joining *j, attribute of, uint32_t set, uint32_t widt
   return *values != NULL;
 }
 
-static bool take_attributes(joining *j) {
+static bool copy_attributes(joining *j) {
   sbfi_scene_mesh *to = j->to;
   bool normals = false, colors = false;
   int32_t *corners;
@@ -451,12 +451,12 @@ static bool take_attributes(joining *j) {
     colors = colors || j->parts[i]->colors;
   }
   if (normals) {
-    if (!take_attribute(j, normals_of, 0, 3, &values, &to->normal_count, &corners)) return false;
+    if (!copy_attribute(j, normals_of, 0, 3, &values, &to->normal_count, &corners)) return false;
     to->normals = (const sbf_vec3 *)values;
     to->corner_normals = corners;
   }
   if (colors) {
-    if (!take_attribute(j, colors_of, 0, 4, &values, &to->color_count, &corners)) return false;
+    if (!copy_attribute(j, colors_of, 0, 4, &values, &to->color_count, &corners)) return false;
     to->colors = (const sbf_vec4 *)values;
     to->corner_colors = corners;
   }
@@ -464,7 +464,7 @@ static bool take_attributes(joining *j) {
   sbfi_scene_uvs *sets = allocate(j, j->uv_set_count, sizeof *sets);
   if (!sets) return false;
   for (uint32_t set = 0; set < j->uv_set_count; set++) {
-    if (!take_attribute(j, uvs_of, set, 2, &values, &sets[set].count, &corners)) return false;
+    if (!copy_attribute(j, uvs_of, set, 2, &values, &sets[set].count, &corners)) return false;
     sets[set].name = "";
     sets[set].at = (const sbf_vec2 *)values;
     sets[set].corner = corners;
@@ -476,8 +476,8 @@ static bool take_attributes(joining *j) {
 
 static bool join(joining *j) {
   j->to->name = sbfi_scene_string(j->assembly->scene, shared_name(j));
-  return j->to->name && join_polygons(j) && join_skin(j) && weld(j) && take_skin(j) && take_groups(j) &&
-         take_shapes(j) && take_attributes(j);
+  return j->to->name && join_polygons(j) && join_skin(j) && weld(j) && copy_skin(j) && copy_groups(j) &&
+         copy_shapes(j) && copy_attributes(j);
 }
 
 /* Creates the mesh of a node in `*to`, unless it has no polygons; counts skipped ones. */

@@ -29,7 +29,7 @@ static void mark_ends(sbfi_assembly *a, uint32_t node_count) {
     if (a->nodes[i].parent != SBF_NONE) a->nodes[a->nodes[i].parent].is_end = false;
 }
 
-static bool take_limits(sbfi_assembly *a, sbfi_scene_node *node, const sbfi_scene_limit *limits) {
+static bool copy_limits(sbfi_assembly *a, sbfi_scene_node *node, const sbfi_scene_limit *limits) {
   bool good = true;
   for (int i = 0; i < SBFI_LIMITS; i++) {
     node->limits[i] = limits[i];
@@ -71,7 +71,7 @@ static bool fold(sbfi_assembly *a) {
     const char *name = sbfi_scene_string(a->scene, node->name);
     if (!name) return false;
     a->nodes[count] = (sbfi_scene_node){.name = name, .parent = kept, .local = local};
-    if (!take_limits(a, &a->nodes[count], raw->nodes[i].limits)) return false;
+    if (!copy_limits(a, &a->nodes[count], raw->nodes[i].limits)) return false;
     a->old_from_new[count] = i;
     a->new_from_old[i] = (int32_t)count++;
   }

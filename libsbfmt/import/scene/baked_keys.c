@@ -68,7 +68,7 @@ static bool is_constant(const float *values, uint32_t count, uint32_t width) {
   return true;
 }
 
-static bool keep_track(sbfi_arena *arena, uint32_t count, const float *times, const float *values,
+static bool copy_track(sbfi_arena *arena, uint32_t count, const float *times, const float *values,
     uint32_t width, sbfi_track *to) {
   if (is_constant(values, count, width)) count = 1;
   to->count = count;
@@ -111,7 +111,7 @@ bool sbfi_bake_keys(
     }
     times[key] = time;
   }
-  return keep_track(arena, key_count, times, positions, 3, &to->tracks[SBFI_RAW_POSITION]) &&
-         keep_track(arena, key_count, times, rotations, 4, &to->tracks[SBFI_RAW_ROTATION]) &&
-         keep_track(arena, key_count, times, scales, 3, &to->tracks[SBFI_RAW_SCALE]);
+  return copy_track(arena, key_count, times, positions, 3, &to->tracks[SBFI_RAW_POSITION]) &&
+         copy_track(arena, key_count, times, rotations, 4, &to->tracks[SBFI_RAW_ROTATION]) &&
+         copy_track(arena, key_count, times, scales, 3, &to->tracks[SBFI_RAW_SCALE]);
 }

@@ -71,7 +71,7 @@ static bool read_types(vtk *v) {
   return types != NULL;
 }
 
-static bool take_tetrahedra(vtk *v) {
+static bool read_tetrahedra(vtk *v) {
   const uint32_t *cells = v->cells.at, *types = v->types.at;
   for (size_t i = 0, at = 0; i < v->types.count; i++) {
     if (at >= v->cells.count || cells[at] >= v->cells.count - at)
@@ -104,7 +104,7 @@ static bool read_sections(vtk *v) {
       break; /* the rest is data of these points and cells */
     }
   }
-  return v->r->status == SBF_OK && take_tetrahedra(v);
+  return v->r->status == SBF_OK && read_tetrahedra(v);
 }
 
 bool sbfi_read_vtk(sbfi_word_reader *r, sbfi_tet_mesh *mesh) {

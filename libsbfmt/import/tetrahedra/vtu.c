@@ -41,7 +41,7 @@ static bool whole_number(vtu *v, sbfi_span text, uint32_t *value) {
 
 /* --- One piece ---------------------------------------------------------------------------------------- */
 
-static bool take_points(vtu *v) {
+static bool read_points(vtu *v) {
   sbfi_array numbers;
   sbfi_array_init(&numbers, &v->mesh->allocator, sizeof(float));
   bool good = sbfi_vtu_floats(v->r, &v->coding, &v->arrays[POINTS], &numbers);
@@ -58,7 +58,7 @@ typedef struct cell_lists {
   sbfi_array lists[ARRAYS]; /* uint32_t; that of POINTS stays empty */
 } cell_lists;
 
-static bool take_cells(vtu *v, cell_lists *cells, uint32_t first_point) {
+static bool read_cells(vtu *v, cell_lists *cells, uint32_t first_point) {
   for (int i = CONNECTIVITY; i < ARRAYS; i++) {
     if (!sbfi_vtu_indices(v->r, &v->coding, &v->arrays[i], &cells->lists[i])) return false;
     if (i != CONNECTIVITY && cells->lists[i].count != v->cell_count)
@@ -96,7 +96,7 @@ static void clear_arrays(vtu *v) {
   }
 }
 
-static bool take_piece(vtu *v) {
+static bool read_piece(vtu *v) {
   static const char *const missing[ARRAYS] = {"the piece has no points",
       "the cells have no array 'connectivity'", "the cells have no array 'offsets'",
       "the cells have no array 'types'"};
@@ -109,7 +109,7 @@ static bool take_piece(vtu *v) {
   uint32_t first_point = (uint32_t)v->mesh->points.count;
   cell_lists cells;
   for (int i = 0; i < ARRAYS; i++) sbfi_array_init(&cells.lists[i], &v->mesh->allocator, sizeof(uint32_t));
-  bool good = take_points(v) && take_cells(v, &cells, first_point);
+  bool good = read_points(v) && read_cells(v, &cells, first_point);
   for (int i = 0; i < ARRAYS; i++) sbfi_array_free(&cells.lists[i]);
   return good;
 }
@@ -202,7 +202,7 @@ static bool on_end(void *user) {
     v->passed_over--;
     return true;
   }
-  bool good = v->at != IN_PIECE || take_piece(v);
+  bool good = v->at != IN_PIECE || read_piece(v);
   if (v->at == IN_PIECE) clear_arrays(v);
   v->at = v->at == IN_ARRAY                         ? v->array_in
           : v->at == IN_POINTS || v->at == IN_CELLS ? IN_PIECE

@@ -156,7 +156,7 @@ static bool copy_plain(byte_source *s, sbfi_vtu_coding *c, sbfi_array *to) {
 }
 
 /* Copies the array's bytes as they were in VTK's memory. */
-static bool take_bytes(sbfi_word_reader *r, sbfi_vtu_coding *c, const sbfi_vtu_array *from, sbfi_array *to) {
+static bool read_bytes(sbfi_word_reader *r, sbfi_vtu_coding *c, const sbfi_vtu_array *from, sbfi_array *to) {
   byte_source s = {.r = r, .is_text = true, .from = {from->text.at, from->text.length}};
   if (from->format == SBFI_VTU_APPENDED) {
     if (!c->appended.at || from->offset > c->appended.length)
@@ -199,7 +199,7 @@ static bool one_index(sbfi_word_reader *r, sbfi_vtu_type type, uint64_t bits, ui
   return true;
 }
 
-static bool take_text(sbfi_word_reader *r, const sbfi_vtu_array *from, sbfi_array *to, bool floats) {
+static bool read_text(sbfi_word_reader *r, const sbfi_vtu_array *from, sbfi_array *to, bool floats) {
   sbfi_word_reader words;
   sbfi_word_reader_init(&words, from->text.at, from->text.length, r->file, r->error);
   words.line = from->line;
@@ -216,15 +216,15 @@ static bool take_text(sbfi_word_reader *r, const sbfi_vtu_array *from, sbfi_arra
   }
 }
 
-static bool take_numbers(
+static bool read_numbers(
     sbfi_word_reader *r, sbfi_vtu_coding *c, const sbfi_vtu_array *from, sbfi_array *to, bool floats) {
   r->line = from->line;
   if (from->text.failed)
     return sbfi_word_fail(r, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", r->file);
-  if (from->format == SBFI_VTU_ASCII) return take_text(r, from, to, floats);
+  if (from->format == SBFI_VTU_ASCII) return read_text(r, from, to, floats);
   sbfi_array bytes;
   sbfi_array_init(&bytes, &to->allocator, 1);
-  bool good = take_bytes(r, c, from, &bytes);
+  bool good = read_bytes(r, c, from, &bytes);
   uint32_t size = types[from->type].size;
   if (good && bytes.count % size)
     good = sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "an array's bytes are no whole count of its numbers");
@@ -242,9 +242,9 @@ static bool take_numbers(
 }
 
 bool sbfi_vtu_floats(sbfi_word_reader *r, sbfi_vtu_coding *c, const sbfi_vtu_array *from, sbfi_array *to) {
-  return take_numbers(r, c, from, to, true);
+  return read_numbers(r, c, from, to, true);
 }
 
 bool sbfi_vtu_indices(sbfi_word_reader *r, sbfi_vtu_coding *c, const sbfi_vtu_array *from, sbfi_array *to) {
-  return take_numbers(r, c, from, to, false);
+  return read_numbers(r, c, from, to, false);
 }

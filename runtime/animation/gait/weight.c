@@ -21,7 +21,7 @@ static float vertical_shift(const sbri_rig *rig, const sbri_gait_state *state, f
 }
 
 /* Rotation by the length of the horizontal vector `aside`, in rad, that leans the bone in its direction. */
-static sbf_quat lean_towards(sbf_vec3 aside) {
+static sbf_quat tilt_towards(sbf_vec3 aside) {
   return sbri_quat_exp(sbri_vec3(aside.z, 0, -aside.x));
 }
 
@@ -57,7 +57,7 @@ bool sbri_weights_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
     if (input->keeps_rest_pose || !(length > 0)) continue;
     sbf_vec3 lag = limited_lag(source, follower, length);
     if (lag.x == 0 && lag.y == 0 && lag.z == 0) continue;
-    move_bone(rig, b, lean_towards(lag), vertical_shift(rig, state, lag.y * length), pose);
+    move_bone(rig, b, tilt_towards(lag), vertical_shift(rig, state, lag.y * length), pose);
     moved = true;
   }
   return moved;

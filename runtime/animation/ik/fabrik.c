@@ -45,7 +45,7 @@ static void backward(const sbri_ik_tree *tree, point_set *p) {
 
 /* Rotation that moves a joint's children closest to their targets: the sum of their arms to the sum of the
  * targets, then about that line for the arm farthest from it. */
-static sbf_quat turn_of(const sbri_ik_tree *tree, const point_set *p, uint32_t joint) {
+static sbf_quat rotation_of(const sbri_ik_tree *tree, const point_set *p, uint32_t joint) {
   sbf_vec3 is = {0, 0, 0}, wanted = {0, 0, 0}, side_is = {0, 0, 0}, side_wanted = {0, 0, 0};
   const sbr_transform *frame = &p->frames[joint];
   uint32_t children = 0;
@@ -83,7 +83,7 @@ static bool forward(sbri_ik_tree *tree, point_set *p) {
     sbri_ik_joint *joint = &tree->joints[i];
     p->frames[i].position = sbri_add(before->position, sbri_rotate(before->rotation, joint->offset));
     p->frames[i].rotation = sbri_quat_normalize(sbri_quat_multiply(before->rotation, joint->rotation));
-    sbf_quat world = sbri_quat_multiply(turn_of(tree, p, i), p->frames[i].rotation);
+    sbf_quat world = sbri_quat_multiply(rotation_of(tree, p, i), p->frames[i].rotation);
     sbf_quat local = sbri_quat_normalize(sbri_quat_multiply(sbri_quat_conjugate(before->rotation), world));
     joint->rotation = sbri_joint_limit_clamp(joint->limit, local);
     free = free && joint->rotation.x == local.x && joint->rotation.y == local.y &&
@@ -202,11 +202,11 @@ static bool is_limited(const sbri_ik_chain *chain) {
   return limited;
 }
 
-static void take_rotations(const sbri_ik_chain *chain, sbf_quat *rotations) {
+static void copy_rotations(const sbri_ik_chain *chain, sbf_quat *rotations) {
   for (uint32_t i = 0; i < chain->count; i++) rotations[i] = chain->joints[i].rotation;
 }
 
-static void give_rotations(const sbf_quat *rotations, sbri_ik_chain *chain) {
+static void restore_rotations(const sbf_quat *rotations, sbri_ik_chain *chain) {
   for (uint32_t i = 0; i < chain->count; i++) chain->joints[i].rotation = rotations[i];
 }
 
@@ -217,12 +217,12 @@ static sbri_ik_result out_of_corner(sbri_ik_chain *chain, const sbf_quat *began_
   sbf_quat kept[SBRI_IK_MAX_JOINTS];
   sbri_ik_chain rest = *chain;
   rest.iterations = chain->iterations - so_far.iterations;
-  take_rotations(chain, kept);
-  give_rotations(began_with, chain);
+  copy_rotations(chain, kept);
+  restore_rotations(began_with, chain);
   sbri_ik_result then = sbri_ccd(&rest);
   then.iterations += so_far.iterations;
   if (then.error <= so_far.error) return then;
-  give_rotations(kept, chain);
+  restore_rotations(kept, chain);
   so_far.iterations = then.iterations;
   return so_far;
 }
@@ -231,7 +231,7 @@ sbri_ik_result sbri_fabrik(sbri_ik_chain *chain) {
   point_set p;
   uint32_t parents[SBRI_IK_MAX_JOINTS];
   sbf_quat began_with[SBRI_IK_MAX_JOINTS];
-  take_rotations(chain, began_with);
+  copy_rotations(chain, began_with);
   sbf_vec3 target = sbri_ik_begin(chain, p.frames);
   sbri_ik_goal goal = {chain->count - 1, target};
   for (uint32_t i = 0; i < chain->count; i++) parents[i] = i ? i - 1 : 0;

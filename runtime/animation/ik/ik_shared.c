@@ -72,7 +72,7 @@ static void unfold(sbri_ik_chain *chain, sbf_vec3 target, sbr_transform *frames)
 }
 
 /* Rotates the chain about the line from its root to its end until it bends towards the pole. */
-static void turn_to_pole(sbri_ik_chain *chain, sbr_transform *frames) {
+static void rotate_to_pole(sbri_ik_chain *chain, sbr_transform *frames) {
   uint32_t n = chain->count;
   if (!chain->has_pole || n < 3) return;
   sbf_vec3 root = frames[0].position, away = sbri_sub(frames[n - 1].position, root), bow = {0, 0, 0};
@@ -98,7 +98,7 @@ sbf_vec3 sbri_ik_comfort_fraction(const sbri_ik_joint *joint, sbf_vec3 turn) {
 }
 
 /* Before solving: moves to the comfort by its weight, about each of the joint's own axes. */
-static void take_comfort(sbri_ik_joint *joint) {
+static void move_to_comfort(sbri_ik_joint *joint) {
   if (sbri_ik_comfort_is_even(joint)) {
     joint->rotation = sbri_quat_blend(joint->rotation, joint->comfort, joint->comfort_weight);
     return;
@@ -112,7 +112,7 @@ static void take_comfort(sbri_ik_joint *joint) {
 sbf_vec3 sbri_ik_begin(sbri_ik_chain *chain, sbr_transform *frames) {
   for (uint32_t i = 0; i < chain->count; i++) {
     sbri_ik_joint *joint = &chain->joints[i];
-    if (joint->comfort_weight > 0) take_comfort(joint);
+    if (joint->comfort_weight > 0) move_to_comfort(joint);
     joint->rotation = sbri_joint_limit_clamp(joint->limit, joint->rotation);
   }
   sbri_ik_compute_frames(chain, frames);
@@ -122,7 +122,7 @@ sbf_vec3 sbri_ik_begin(sbri_ik_chain *chain, sbr_transform *frames) {
   sbf_vec3 target = distance > 0 ? sbri_add_scaled(root, to, eased / distance) : chain->target;
   if (eased == distance) target = chain->target;
   unfold(chain, target, frames);
-  turn_to_pole(chain, frames);
+  rotate_to_pole(chain, frames);
   return target;
 }
 
@@ -149,7 +149,7 @@ sbri_ik_result sbri_ik_finish(
   float error = sbri_length(sbri_sub(frames[last].position, target));
   if (chain->has_pole && chain->count > 2) {
     sbf_quat kept = chain->joints[0].rotation;
-    turn_to_pole(chain, frames);
+    rotate_to_pole(chain, frames);
     float turned = sbri_length(sbri_sub(frames[last].position, target));
     if (turned > error + chain->tolerance) { /* forbidden by the root's limit: the target has priority */
       chain->joints[0].rotation = kept;

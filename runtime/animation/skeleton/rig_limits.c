@@ -23,7 +23,7 @@ static void narrow(float range[2], const sbf_limit *limit) {
   if (limit->max < range[1]) range[1] = limit->max;
 }
 
-static void take_limit(const sbf_limit *from, sbri_joint_limit *limit) {
+static void copy_limit(const sbf_limit *from, sbri_joint_limit *limit) {
   if (from->target == SBF_JOINT_AXIS_TWIST) narrow(limit->twist, from);
   if (from->target == SBF_JOINT_AXIS_SWING_Y) narrow(limit->swing_y, from);
   if (from->target == SBF_JOINT_AXIS_SWING_Z) narrow(limit->swing_z, from);
@@ -50,7 +50,7 @@ void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits) {
     limit->before = sbri_quat_multiply(sbri_quat_conjugate(frame_a), above);
     limit->after = sbri_quat_multiply(sbri_quat_conjugate(rig->bones.rest[bone].rotation), frame_b);
     open_kind(joint->kind, limit);
-    for (uint32_t k = 0; k < joint->limits.count; k++) take_limit(&joint->limits.at[k], limit);
+    for (uint32_t k = 0; k < joint->limits.count; k++) copy_limit(&joint->limits.at[k], limit);
     limit->active = true;
     sbri_joint_limit_ready(limit);
     /* A limit that the rest pose violates is ignored. */

@@ -19,7 +19,7 @@ static float touching_height(const foot_points *f) {
   return f->low + CONTACT_BAND * (f->high - f->low);
 }
 
-static void take_corner(foot_points *f, float x, float z) {
+static void add_corner(foot_points *f, float x, float z) {
   for (int k = 0; k < 4; k++) {
     float across = k & 1 ? 1.0f : -1.0f, along = k & 2 ? 1.0f : -1.0f;
     if (!f->is_touching ||
@@ -49,7 +49,7 @@ static void take(foot_points *f, sbf_vec3 p, int pass, sbf_vec3 home) {
   s->right = x < s->right ? x : s->right;
   s->toe = z > s->toe ? z : s->toe;
   s->heel = z < s->heel ? z : s->heel;
-  if (p.y <= touching_height(f)) take_corner(f, x, z);
+  if (p.y <= touching_height(f)) add_corner(f, x, z);
 }
 
 static bool is_in_outline(const foot_points *f, sbf_vec3 p, sbf_vec3 home) {
@@ -61,7 +61,7 @@ static bool is_in_outline(const foot_points *f, sbf_vec3 p, sbf_vec3 home) {
 
 /* Intersections of the foot's surface edges with the contact height: for a hoof or a ball, only its lowest
  * vertex may be below it. */
-static void take_cut(foot_points *f, const sbf_polygon_mesh *mesh, sbf_vec3 home) {
+static void add_cut(foot_points *f, const sbf_polygon_mesh *mesh, sbf_vec3 home) {
   const uint32_t *corners = mesh->polygon_points.at;
   float height = touching_height(f);
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
@@ -70,7 +70,7 @@ static void take_cut(foot_points *f, const sbf_polygon_mesh *mesh, sbf_vec3 home
       if ((a.y <= height) == (b.y <= height)) continue;
       if (!is_in_outline(f, a, home) || !is_in_outline(f, b, home)) continue;
       sbf_vec3 at = sbri_lerp(a, b, (height - a.y) / (b.y - a.y));
-      take_corner(f, at.x - home.x, at.z - home.z);
+      add_corner(f, at.x - home.x, at.z - home.z);
     }
 }
 
@@ -80,7 +80,7 @@ static void visit_bodies(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 h
     if (body->bone < 0 || !sbri_rig_is_below(rig, body->bone, foot)) continue;
     for (uint32_t i = 0; pass < CUT && i < body->surface.positions.count; i++)
       take(f, body->surface.positions.at[i], pass, home);
-    if (pass == CUT) take_cut(f, &body->surface, home);
+    if (pass == CUT) add_cut(f, &body->surface, home);
   }
 }
 
@@ -88,7 +88,7 @@ static void visit_skins(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 ho
   for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &rig->asset->render_meshes.at[m];
     uint32_t at = 0;
-    if (mesh->skin && pass == CUT) take_cut(f, &mesh->mesh, home);
+    if (mesh->skin && pass == CUT) add_cut(f, &mesh->mesh, home);
     for (uint32_t i = 0; mesh->skin && pass < CUT && i < mesh->skin->influence_counts.count; i++) {
       float limited = 0;
       for (uint32_t k = 0; k < mesh->skin->influence_counts.at[i]; k++, at++)

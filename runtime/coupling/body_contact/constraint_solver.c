@@ -156,7 +156,7 @@ static float sweep_rigid(sbri_contact_constraint *rows, uint32_t count) {
 
 /* Sets the impulse to that at the begin plus a fraction of the step of the active contacts, within the
  * friction cone. */
-static void take_step(sbri_contact_constraint *r, float fraction) {
+static void advance(sbri_contact_constraint *r, float fraction) {
   const double *step = r->active.step;
   sbri_four p = sbri_four_add_scaled(
       r->search_direction, sbri_four_of(sbri_vec3((float)step[0], (float)step[1], (float)step[2])), fraction);
@@ -190,7 +190,7 @@ static void apply_active_steps(sbri_contact_constraint *rows, uint32_t count) {
   for (int attempt = 0; attempt <= STEP_ATTEMPTS; attempt++) {
     if (attempt == STEP_ATTEMPTS) fraction = 0;
     for (uint32_t i = 0; i < count; i++)
-      if (rows[i].active.is_pressing) take_step(&rows[i], fraction);
+      if (rows[i].active.is_pressing) advance(&rows[i], fraction);
     if (fall_of_energy(rows, count) > 0) return;
     fraction *= 0.25f;
   }

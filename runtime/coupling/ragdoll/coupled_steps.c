@@ -55,7 +55,7 @@ static float tick_of(const sbri_coupled *group) {
   return (float)group->world->tick_s * group->character->time_scale;
 }
 
-static void take_steps(sbri_coupled *group, float steps) {
+static void request_steps(sbri_coupled *group, float steps) {
   if (steps > (float)group->steps) group->steps = steps < MAX_STEPS ? (uint32_t)ceilf(steps) : MAX_STEPS;
 }
 
@@ -67,7 +67,7 @@ static bool may_be_attached(const sbri_character *c, const sbri_island *island) 
  * of all others are known. */
 static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
   if (carrier < 0 || !sbri_can_attach(group->character, (uint32_t)carrier)) {
-    take_steps(group, steps);
+    request_steps(group, steps);
     return;
   }
   sbri_attached_load *burden = &sbri_burdens(group->character)[carrier];
@@ -112,7 +112,7 @@ static void check_directions(sbri_coupled *group) {
       any = true;
     }
     (void)sbri_driver_velocities_find(c, island, step_s);
-    take_steps(
+    request_steps(
         group, tick_of(group) * speed_against_drivers(c, island) / (MAX_TRAVEL * island->stability.cell_m));
   }
   if (any) sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
@@ -125,7 +125,7 @@ static void check_directions(sbri_coupled *group) {
 static void request_steps_of_impact(sbri_coupled *group, const sbri_island_tick *tick) {
   float steps = fminf(ceilf(sbri_impact_substeps(tick, tick_of(group))), MAX_STEPS);
   if (steps > (float)group->steps && steps > (float)steps_of(tick, tick_of(group)))
-    take_steps(group, (float)rounded_steps((uint32_t)steps));
+    request_steps(group, (float)rounded_steps((uint32_t)steps));
 }
 
 /* ---- For a tick, and for its remainder ---- */
@@ -156,11 +156,11 @@ void sbri_coupled_request_steps_of_bones(sbri_coupled *group) {
     float needed = sbri_burdens(c)[b].needed_steps;
     if (!(needed > (float)group->steps)) continue;
     float bearing = sbri_bearing_steps(c, b, tick_of(group));
-    take_steps(group, needed < bearing ? needed : bearing);
+    request_steps(group, needed < bearing ? needed : bearing);
   }
   check_directions(group);
   if (is_lightly_damped(c) && 2 * group->steps > sbri_rigid_drive(c)->soft_steps)
-    take_steps(group, (float)sbri_rigid_drive(c)->soft_steps);
+    request_steps(group, (float)sbri_rigid_drive(c)->soft_steps);
 }
 
 void sbri_coupled_request_steps_now(sbri_coupled *group, const sbri_island_tick *tick) {
@@ -168,12 +168,13 @@ void sbri_coupled_request_steps_now(sbri_coupled *group, const sbri_island_tick 
   const sbri_island *island = tick->island;
   request_steps_of_impact(group, tick);
   if (island->scheme->sweeps || may_be_attached(c, island)) return;
-  take_steps(group, (float)steps_of(tick, tick_of(group)));
+  request_steps(group, (float)steps_of(tick, tick_of(group)));
   double stiffened_s = sbri_stiffened_time(tick, tick_of(group));
   for (uint32_t i = 0; i < island->pins.carrier_count; i++) {
     uint32_t b = island->pins.carriers[i];
     if (sbri_rigid_is_simulated(c, b))
-      take_steps(group, (float)stiffened_s * sqrtf(c->model->rigid.pinned_squares[b]) / MAX_STIFFENED_SWING);
+      request_steps(
+          group, (float)stiffened_s * sqrtf(c->model->rigid.pinned_squares[b]) / MAX_STIFFENED_SWING);
   }
 }
 

@@ -81,7 +81,7 @@ static void call_values(void *userdata, GDExtensionClassInstancePtr made,
 }
 
 /* A result is initially a null pointer, and counted if its class is. */
-static void give_object(GDExtensionTypePtr result, const gd_variant *answer) {
+static void return_object(GDExtensionTypePtr result, const gd_variant *answer) {
   if (!gd_as_object(answer)) return;
   if (gd_take_bool(GD_CALL(answer, "is_class", gd_string("RefCounted"))))
     gd.ref_set_object(result, gd_as_object(answer));
@@ -108,7 +108,7 @@ static void call_raw(const gd_method *method, instance *made, const GDExtensionC
     if (method->result.type == GDEXTENSION_VARIANT_TYPE_NIL)
       gd.variant_new_copy(result, &answer);
     else if (method->result.type == GDEXTENSION_VARIANT_TYPE_OBJECT)
-      give_object(result, &answer);
+      return_object(result, &answer);
     else
       gd.get_variant_to_type_constructor(method->result.type)(result, &answer);
   }

@@ -31,7 +31,7 @@ static void change_body_velocity(
     if (t->island->masses[slot] > 0) add(velocity_of(velocities, slot), velocity_change);
 }
 
-static sbf_vec3 hold_impulse(
+static sbf_vec3 drag_impulse(
     const sbri_island_tick *t, const sbri_load_now *load, const float *velocities, float h) {
   sbf_vec3 error = sbri_scale(load->target, -1), v = {0, 0, 0};
   for (uint32_t k = 0; k < load->at.count; k++) {
@@ -50,7 +50,7 @@ void sbri_loads_apply(const sbri_island_tick *t, const sbri_body *body, float *v
   for (uint32_t i = 0; i < t->environment.load_count; i++) {
     const sbri_load_now *load = &t->environment.loads[i];
     if (&t->model->bodies[load->body] != body) continue;
-    sbf_vec3 impulse = load->holds ? hold_impulse(t, load, velocities, h) : sbri_scale(load->force, h);
+    sbf_vec3 impulse = load->holds ? drag_impulse(t, load, velocities, h) : sbri_scale(load->force, h);
     if (load->at.count > 0)
       apply_impulse(t, &load->at, velocities, impulse);
     else

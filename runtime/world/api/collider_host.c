@@ -216,7 +216,7 @@ void sbr_collider_set_motion(sbr_world *world, sbr_collider_id collider, const s
   mark_changed(world);
 }
 
-static sbf_vec3 take_sum(double sum[3]) {
+static sbf_vec3 round_sum(double sum[3]) {
   sbf_vec3 all = {(float)sum[0], (float)sum[1], (float)sum[2]};
   sum[0] = sum[1] = sum[2] = 0;
   return all;
@@ -225,8 +225,8 @@ static sbf_vec3 take_sum(double sum[3]) {
 sbr_collider_impulse sbr_collider_take_impulse(sbr_world *world, sbr_collider_id collider) {
   sbri_collider *c = collider_of(world, collider);
   if (!c) return (sbr_collider_impulse){{0, 0, 0}, {0, 0, 0}};
-  sbf_vec3 impulse = take_sum(c->impulse);
+  sbf_vec3 impulse = round_sum(c->impulse);
   sbri_host_body *body = &world->colliders.at[c->leader].body;
   body->reported_impulse = sbri_add(body->reported_impulse, impulse);
-  return (sbr_collider_impulse){impulse, take_sum(c->moment)};
+  return (sbr_collider_impulse){impulse, round_sum(c->moment)};
 }

@@ -86,7 +86,7 @@ static void report_character(const box_query *q, const sbri_character *c) {
 }
 
 /* A triangle of the ground overlaps the box by its bounds; a box wholly below it is inside. */
-static bool see_ground(void *context, const sbri_query_piece *piece) {
+static bool test_ground(void *context, const sbri_query_piece *piece) {
   bool *sees = context;
   *sees = piece->kind == SBRI_PIECE_CONVEX;
   return !*sees;
@@ -98,7 +98,7 @@ static bool reaches_ground(const box_query *q) {
   if (low <= sbri_ground_height(&q->world->ground, x, z, NULL)) return true;
   sbri_query_space space = {.world = q->world, .filter = q->filter, .origin = q->origin, .box = q->box};
   bool sees = false;
-  sbri_query_visit_ground(&space, see_ground, &sees);
+  sbri_query_visit_ground(&space, test_ground, &sees);
   return sees;
 }
 
