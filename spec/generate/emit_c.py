@@ -76,7 +76,7 @@ def wrap(text, begin="", width=120):
 
 
 def enum_type(name, values):
-    return (f"/* Words of {name}, in the file's spelling by sbf_{name}_name. */\ntypedef enum sbf_{name} {{\n"
+    return (f"/* Values of {name}; sbf_{name}_name returns their names in files. */\ntypedef enum sbf_{name} {{\n"
             + "".join(f"  SBF_{name.upper()}_{v.upper()} = {i},\n" for i, v in enumerate(values))
             + f"  SBF_{name.upper()}_COUNT = {len(values)}\n}} sbf_{name};\n\n")
 
@@ -95,10 +95,10 @@ def struct(element, is_root=False):
 
 
 def calls(elements, enums):
-    out = ["/* Every field at its default, lists empty, references SBF_NONE. */\n"]
+    out = ["/* Sets every field to its default, lists to empty, references to SBF_NONE. */\n"]
     out += [f"SBF_API void sbf_{element.name}_init(sbf_{element.name} *{element.name});\n" for element in elements]
     if enums:
-        out.append("\n/* The word the format uses for a value, or \"?\" for one out of range. */\n")
+        out.append("\n/* The name of a value in files, or \"?\" if it is out of range. */\n")
     out += [f"SBF_API const char *sbf_{name}_name(sbf_{name} value);\n" for name in enums]
     return "".join(out)
 
@@ -114,23 +114,23 @@ def header(name, opening, includes, body):
 def chapter_header(schema, chapter):
     elements = [element for element in ordered(schema) if element in chapter.elements]
     body = [enum_type(name, schema.enums[name]) for name in chapter.enums] + [struct(element) for element in elements]
-    return header("model_" + chapter.name, chapter.meaning + " A chapter of sbfmt/model.h, which says what holds for all of them.",
+    return header("model_" + chapter.name, chapter.meaning + " Part of sbfmt/model.h, which documents the common conventions.",
                   [f"model_{above.name}" for above in chapter.above] or ["base"],
                   "".join(body) + calls(elements, chapter.enums))
 
 
-MODEL = ("The asset: plain read-only data, as the format defines it, a header for each of its chapters.\n\n"
+MODEL = ("The asset: plain read-only data, as the format defines it, with a header for each chapter.\n\n"
          "Units are SI: metres, kilograms, seconds, newtons, pascals, radians. Right-handed, +Y up, +Z forward; all "
-         "positions are in asset space and in the rest pose unless they say otherwise. Everything a loaded asset points "
-         "at lives in it and is freed with it; it may be read by any number of threads at once. Strings are UTF-8 and "
-         "never NULL. References are places in a list of the asset, or SBF_NONE. Square brackets give unit, range, "
+         "positions are in asset space and in the rest pose unless stated otherwise. A loaded asset owns everything it "
+         "points to, and any number of threads may read it at once. Strings are UTF-8 and "
+         "never NULL. References are indices into a list of the asset, or SBF_NONE. Square brackets give unit, range, "
          "default, and the length of a list.")
 
 
 def model_headers(schema):
     """Name below sbfmt/ -> text: a header for each chapter, and model.h, which includes them and holds the root."""
     headers = {f"model_{chapter.name}.h": chapter_header(schema, chapter) for chapter in schema.chapters}
-    version = f"/* Of the format this library writes. */\n#define SBF_FORMAT_VERSION \"{schema.version}\"\n\n"
+    version = f"/* Version of the format that this library writes. */\n#define SBF_FORMAT_VERSION \"{schema.version}\"\n\n"
     headers["model.h"] = header("model", MODEL, [f"model_{chapter.name}" for chapter in schema.chapters],
                                 version + struct(schema.root, is_root=True) + calls([schema.root], []))
     return headers

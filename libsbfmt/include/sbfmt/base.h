@@ -1,7 +1,7 @@
-/* What every other header rests on: status, diagnostics, allocator, lists, small vectors.
+/* Types that all other headers use: status, diagnostics, allocator, lists, small vectors.
  *
  * Everything here is plain data. Functions are thread safe unless they write to an argument that another
- * thread also uses; the library keeps no global state. */
+ * thread also uses. The library has no global state. */
 #ifndef SBFMT_BASE_H
 #define SBFMT_BASE_H
 
@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Marks what the shared libraries export. */
+/* Marks the exports of the shared libraries. */
 #if defined(_WIN32) && defined(SBFMT_SHARED)
 #define SBF_API __declspec(dllexport)
 #elif defined(__GNUC__) && !defined(_WIN32)
@@ -22,19 +22,19 @@
 extern "C" {
 #endif
 
-/* Of the library, as in 0.1.0. */
+/* Version of the library, here 0.1.0. */
 #define SBF_VERSION_MAJOR 0
 #define SBF_VERSION_MINOR 1
 #define SBF_VERSION_PATCH 0
 
-/* Outcome of a call, and the exit status of the program: who has to do something about it. */
+/* Outcome of a call, and the exit status of the program. It says who has to act. */
 typedef enum sbf_status {
   SBF_OK = 0,        /* done */
-  SBF_BAD_INPUT = 1, /* the file is at fault; nothing was made or changed */
-  SBF_FAILED = 2     /* the call or the machine is: wrong argument, no memory, cannot write */
+  SBF_BAD_INPUT = 1, /* the file is at fault; nothing was created or changed */
+  SBF_FAILED = 2     /* the call or the machine is at fault: wrong argument, no memory, cannot write */
 } sbf_status;
 
-/* How much a finding weighs. */
+/* Severity of a finding. */
 typedef enum sbf_severity {
   SBF_SEVERITY_ERROR = 0,
   SBF_SEVERITY_WARNING = 1,
@@ -42,23 +42,23 @@ typedef enum sbf_severity {
 } sbf_severity;
 
 /* One finding, with fixed storage so that reporting cannot itself fail. Texts are UTF-8 and cut to fit.
- * `code` is a number of sbfmt/codes.h: stable over versions. */
+ * `code` is a number from sbfmt/codes.h, which never changes. */
 typedef struct sbf_diagnostic {
   int32_t code;          /* sbf_code; 0: none */
-  sbf_severity severity; /* how much it weighs */
+  sbf_severity severity; /* its severity */
   char message[384];     /* what is wrong and what to do next, one line, no full stop needed */
-  char path[256];        /* element path, as in /sbf/soft_body[2]/surface/positions; "" where there is none */
+  char path[256];        /* element path, as in /sbf/soft_body[2]/surface/positions; "" if none */
   char file[256];        /* the file's name as the caller gave it; "" for memory */
-  uint32_t line;         /* from 1; 0: not known */
-  int64_t offset;        /* byte offset from 0; -1: not known */
-  int64_t index;         /* index of the item in the list at `path`; -1: not about one item */
+  uint32_t line;         /* from 1; 0: unknown */
+  int64_t offset;        /* byte offset from 0; -1: unknown */
+  int64_t index;         /* index of the item in the list at `path`; -1: not about a single item */
 } sbf_diagnostic;
 
-/* Memory, as one function: size 0 frees, memory NULL allocates. `old_size` is what the block was asked with.
- * Must return memory aligned for any type, or NULL (then the old block still stands). */
+/* Memory as one function: size 0 frees, memory NULL allocates. `old_size` is the block's size as last
+ * requested. Must return memory aligned for any type, or NULL; the old block then stays valid. */
 typedef struct sbf_allocator {
   void *(*reallocate)(void *user, void *memory, size_t old_size, size_t new_size); /* as above */
-  void *user; /* handed to the function */
+  void *user; /* passed to the function */
 } sbf_allocator;
 
 typedef struct sbf_vec2 {
@@ -72,7 +72,7 @@ typedef struct sbf_vec4 {
 } sbf_vec4;
 typedef struct sbf_quat {
   float x, y, z, w;
-} sbf_quat; /* unit length, w the real part */
+} sbf_quat; /* unit length, w is the real part */
 typedef struct sbf_uint2 {
   uint32_t at[2];
 } sbf_uint2;
@@ -80,8 +80,8 @@ typedef struct sbf_uint4 {
   uint32_t at[4];
 } sbf_uint4;
 
-/* A list is a pointer and a count. All lists of a loaded asset are read only and live as long as it does.
- * `at` is NULL where count is 0. */
+/* A list is a pointer and a count. All lists of a loaded asset are read only and live as long as the asset.
+ * `at` is NULL if count is 0. */
 typedef struct sbf_u8_list {
   const uint8_t *at;
   uint32_t count;
@@ -123,7 +123,7 @@ typedef struct sbf_string_list {
   uint32_t count;
 } sbf_string_list;
 
-#define SBF_NONE (-1) /* a reference to nothing */
+#define SBF_NONE (-1) /* an empty reference */
 
 #ifdef __cplusplus
 }

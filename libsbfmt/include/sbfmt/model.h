@@ -1,9 +1,9 @@
-/* The asset: plain read-only data, as the format defines it, a header for each of its chapters.
+/* The asset: plain read-only data, as the format defines it, with a header for each chapter.
  *
  * Units are SI: metres, kilograms, seconds, newtons, pascals, radians. Right-handed, +Y up, +Z forward; all positions
- * are in asset space and in the rest pose unless they say otherwise. Everything a loaded asset points at lives in it
- * and is freed with it; it may be read by any number of threads at once. Strings are UTF-8 and never NULL. References
- * are places in a list of the asset, or SBF_NONE. Square brackets give unit, range, default, and the length of a list.
+ * are in asset space and in the rest pose unless stated otherwise. A loaded asset owns everything it points to, and any
+ * number of threads may read it at once. Strings are UTF-8 and never NULL. References are indices into a list of the
+ * asset, or SBF_NONE. Square brackets give unit, range, default, and the length of a list.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_H
@@ -30,7 +30,7 @@ extern "C" {
 
 // clang-format off
 
-/* Of the format this library writes. */
+/* Version of the format that this library writes. */
 #define SBF_FORMAT_VERSION "1.3"
 
 /* A whole file: metres, kilograms, seconds, radians; right-handed, +Y up, +Z forward, rest pose. */
@@ -48,7 +48,7 @@ typedef struct sbf_asset {
   sbf_soft_body_list soft_bodies;           /* Deformable bodies; one with a bone is a section. */
   sbf_cross_springs_list cross_springs;     /* Springs between two bodies. */
   sbf_ik_chain_list ik_chains;              /* Chains of bones that reach for a target. */
-  sbf_gait_list gaits;                      /* Ways to move. */
+  sbf_gait_list gaits;                      /* How the character moves. */
   sbf_chain_list chains;                    /* Chains of bones that follow their first. */
   sbf_follower_list followers;              /* Bones that follow their own pose as second-order systems. */
   sbf_clip_list clips;                      /* Keyed animation. */
@@ -61,7 +61,7 @@ typedef struct sbf_asset {
   sbf_section_recipe_list section_recipes;  /* Settings of sections that `build` cuts. */
 } sbf_asset;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_asset_init(sbf_asset *asset);
 
 // clang-format on

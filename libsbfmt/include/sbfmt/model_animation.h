@@ -1,5 +1,5 @@
-/* Clips, poses, bone masks, and chains for motion from other skeletons. A chapter of sbfmt/model.h, which says what
- * holds for all of them.
+/* Clips, poses, bone masks, and chains for motion from other skeletons. Part of sbfmt/model.h, which documents the
+ * common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_ANIMATION_H
@@ -13,7 +13,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of track_property, in the file's spelling by sbf_track_property_name. */
+/* Values of track_property; sbf_track_property_name returns their names in files. */
 typedef enum sbf_track_property {
   SBF_TRACK_PROPERTY_TRANSLATION = 0,
   SBF_TRACK_PROPERTY_ROTATION = 1,
@@ -21,7 +21,7 @@ typedef enum sbf_track_property {
   SBF_TRACK_PROPERTY_COUNT = 3
 } sbf_track_property;
 
-/* Words of interpolation, in the file's spelling by sbf_interpolation_name. */
+/* Values of interpolation; sbf_interpolation_name returns their names in files. */
 typedef enum sbf_interpolation {
   SBF_INTERPOLATION_LINEAR = 0,
   SBF_INTERPOLATION_STEP = 1,
@@ -86,7 +86,7 @@ typedef struct sbf_retarget_chain {
 } sbf_retarget_chain;
 typedef struct sbf_retarget_chain_list { const sbf_retarget_chain *at; uint32_t count; } sbf_retarget_chain_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_track_init(sbf_track *track);
 SBF_API void sbf_clip_init(sbf_clip *clip);
 SBF_API void sbf_pose_key_init(sbf_pose_key *pose_key);
@@ -94,7 +94,7 @@ SBF_API void sbf_pose_init(sbf_pose *pose);
 SBF_API void sbf_bone_mask_init(sbf_bone_mask *bone_mask);
 SBF_API void sbf_retarget_chain_init(sbf_retarget_chain *retarget_chain);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_track_property_name(sbf_track_property value);
 SBF_API const char *sbf_interpolation_name(sbf_interpolation value);
 

@@ -1,4 +1,4 @@
-/* Materials and their images. A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Materials and their images. Part of sbfmt/model.h, which documents the common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_APPEARANCE_H
@@ -12,7 +12,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of alpha_mode, in the file's spelling by sbf_alpha_mode_name. */
+/* Values of alpha_mode; sbf_alpha_mode_name returns their names in files. */
 typedef enum sbf_alpha_mode {
   SBF_ALPHA_MODE_OPAQUE = 0,
   SBF_ALPHA_MODE_MASK = 1,
@@ -60,12 +60,12 @@ typedef struct sbf_material {
 } sbf_material;
 typedef struct sbf_material_list { const sbf_material *at; uint32_t count; } sbf_material_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_texture_init(sbf_texture *texture);
 SBF_API void sbf_uv_transform_init(sbf_uv_transform *uv_transform);
 SBF_API void sbf_material_init(sbf_material *material);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_alpha_mode_name(sbf_alpha_mode value);
 
 // clang-format on

@@ -1,5 +1,5 @@
-/* Elastic models: tetrahedra, springs, shape matching, or a follower. A chapter of sbfmt/model.h, which says what holds
- * for all of them.
+/* Elastic models: tetrahedra, springs, shape matching, or a follower. Part of sbfmt/model.h, which documents the common
+ * conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_ELASTIC_H
@@ -13,13 +13,13 @@ extern "C" {
 
 // clang-format off
 
-/* Words of volume_target, in the file's spelling by sbf_volume_target_name. */
+/* Values of volume_target; sbf_volume_target_name returns their names in files. */
 typedef enum sbf_volume_target {
   SBF_VOLUME_TARGET_VOLUME = 0,
   SBF_VOLUME_TARGET_COUNT = 1
 } sbf_volume_target;
 
-/* Words of spring_kind, in the file's spelling by sbf_spring_kind_name. */
+/* Values of spring_kind; sbf_spring_kind_name returns their names in files. */
 typedef enum sbf_spring_kind {
   SBF_SPRING_KIND_STRUCTURAL = 0,
   SBF_SPRING_KIND_SHEAR = 1,
@@ -100,14 +100,14 @@ typedef struct sbf_cross_springs {
 } sbf_cross_springs;
 typedef struct sbf_cross_springs_list { const sbf_cross_springs *at; uint32_t count; } sbf_cross_springs_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_tetrahedron_mesh_init(sbf_tetrahedron_mesh *tetrahedron_mesh);
 SBF_API void sbf_spring_set_init(sbf_spring_set *spring_set);
 SBF_API void sbf_shape_regions_init(sbf_shape_regions *shape_regions);
 SBF_API void sbf_jiggle_init(sbf_jiggle *jiggle);
 SBF_API void sbf_cross_springs_init(sbf_cross_springs *cross_springs);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_volume_target_name(sbf_volume_target value);
 SBF_API const char *sbf_spring_kind_name(sbf_spring_kind value);
 

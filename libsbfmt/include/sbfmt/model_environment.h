@@ -1,4 +1,4 @@
-/* Gravity, wind, medium and force fields. A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Gravity, wind, medium and force fields. Part of sbfmt/model.h, which documents the common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_ENVIRONMENT_H
@@ -12,7 +12,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of field_kind, in the file's spelling by sbf_field_kind_name. */
+/* Values of field_kind; sbf_field_kind_name returns their names in files. */
 typedef enum sbf_field_kind {
   SBF_FIELD_KIND_UNIFORM = 0,
   SBF_FIELD_KIND_RADIAL = 1,
@@ -48,11 +48,11 @@ typedef struct sbf_environment {
 } sbf_environment;
 typedef struct sbf_environment_list { const sbf_environment *at; uint32_t count; } sbf_environment_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_force_field_init(sbf_force_field *force_field);
 SBF_API void sbf_environment_init(sbf_environment *environment);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_field_kind_name(sbf_field_kind value);
 
 // clang-format on

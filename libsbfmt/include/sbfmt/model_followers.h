@@ -1,5 +1,5 @@
-/* Chains that trail behind their first bone, and bones that lag behind their pose. A chapter of sbfmt/model.h, which
- * says what holds for all of them.
+/* Chains that trail behind their first bone, and bones that lag behind their pose. Part of sbfmt/model.h, which
+ * documents the common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_FOLLOWERS_H
@@ -13,14 +13,14 @@ extern "C" {
 
 // clang-format off
 
-/* Words of chain_kind, in the file's spelling by sbf_chain_kind_name. */
+/* Values of chain_kind; sbf_chain_kind_name returns their names in files. */
 typedef enum sbf_chain_kind {
   SBF_CHAIN_KIND_LAG = 0,
   SBF_CHAIN_KIND_DISTANCE = 1,
   SBF_CHAIN_KIND_COUNT = 2
 } sbf_chain_kind;
 
-/* Words of follower_channel, in the file's spelling by sbf_follower_channel_name. */
+/* Values of follower_channel; sbf_follower_channel_name returns their names in files. */
 typedef enum sbf_follower_channel {
   SBF_FOLLOWER_CHANNEL_ROTATION = 0,
   SBF_FOLLOWER_CHANNEL_POSITION = 1,
@@ -30,7 +30,7 @@ typedef enum sbf_follower_channel {
   SBF_FOLLOWER_CHANNEL_COUNT = 5
 } sbf_follower_channel;
 
-/* Words of bone_axis, in the file's spelling by sbf_bone_axis_name. */
+/* Values of bone_axis; sbf_bone_axis_name returns their names in files. */
 typedef enum sbf_bone_axis {
   SBF_BONE_AXIS_X = 0,
   SBF_BONE_AXIS_Y = 1,
@@ -69,11 +69,11 @@ typedef struct sbf_follower {
 } sbf_follower;
 typedef struct sbf_follower_list { const sbf_follower *at; uint32_t count; } sbf_follower_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_chain_init(sbf_chain *chain);
 SBF_API void sbf_follower_init(sbf_follower *follower);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_chain_kind_name(sbf_chain_kind value);
 SBF_API const char *sbf_follower_channel_name(sbf_follower_channel value);
 SBF_API const char *sbf_bone_axis_name(sbf_bone_axis value);

@@ -1,5 +1,5 @@
-/* Ways to move: legs, head and tail; waves, fins, wings, wheels. A chapter of sbfmt/model.h, which says what holds for
- * all of them.
+/* Gaits: legs, head and tail; waves, fins, wings, wheels. Part of sbfmt/model.h, which documents the common
+ * conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_GAIT_H
@@ -13,7 +13,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of gait_kind, in the file's spelling by sbf_gait_kind_name. */
+/* Values of gait_kind; sbf_gait_kind_name returns their names in files. */
 typedef enum sbf_gait_kind {
   SBF_GAIT_KIND_WALK = 0,
   SBF_GAIT_KIND_SWIM = 1,
@@ -25,14 +25,14 @@ typedef enum sbf_gait_kind {
   SBF_GAIT_KIND_COUNT = 7
 } sbf_gait_kind;
 
-/* Words of wave_plane, in the file's spelling by sbf_wave_plane_name. */
+/* Values of wave_plane; sbf_wave_plane_name returns their names in files. */
 typedef enum sbf_wave_plane {
   SBF_WAVE_PLANE_LATERAL = 0,
   SBF_WAVE_PLANE_VERTICAL = 1,
   SBF_WAVE_PLANE_COUNT = 2
 } sbf_wave_plane;
 
-/* Words of fin_motion, in the file's spelling by sbf_fin_motion_name. */
+/* Values of fin_motion; sbf_fin_motion_name returns their names in files. */
 typedef enum sbf_fin_motion {
   SBF_FIN_MOTION_FLAP = 0,
   SBF_FIN_MOTION_TRAIL = 1,
@@ -120,15 +120,15 @@ typedef struct sbf_wheel_list { const sbf_wheel *at; uint32_t count; } sbf_wheel
 /* The links of a track that run around its wheels. */
 typedef struct sbf_tread {
   const char *name;    /* Name for people. */
-  sbf_u32_list bones;  /* Links in order around the loop; driven forward, each moves to the place of the next.
+  sbf_u32_list bones;  /* Links in order around the loop; driven forward, each moves to the position of the next.
                         * [index into asset.bones] */
 } sbf_tread;
 typedef struct sbf_tread_list { const sbf_tread *at; uint32_t count; } sbf_tread_list;
 
-/* How water or air carries a character. */
+/* Buoyancy, drag and flight of a character in water or air. */
 typedef struct sbf_medium {
-  float buoyancy;       /* Fraction of its weight that is carried when it stops; below 1 it sinks, above 1 it rises.
-                         * [[0, 10]; default 1] */
+  float buoyancy;       /* Fraction of its weight that buoyancy supports when it stops; below 1 it sinks, above 1 it
+                         * rises. [[0, 10]; default 1] */
   float drag_length;    /* Distance over which drag slows it to 1/e; 0: the undulation's length, else the largest
                          * extent. [m; [0, inf)] */
   float altitude;       /* Height above the ground of its lowest point, where it starts. [m; [0, inf)] */
@@ -176,11 +176,11 @@ typedef struct sbf_gait {
   sbf_fin_list fins;                 /* Fins, flippers, wings: swim, fly. */
   sbf_wheel_list wheels;             /* Wheels: roll. */
   sbf_tread_list treads;             /* Links of tracks: roll. */
-  const sbf_medium *medium;          /* How a medium carries it: swim, fly. */
+  const sbf_medium *medium;          /* Motion in a medium: swim, fly. */
 } sbf_gait;
 typedef struct sbf_gait_list { const sbf_gait *at; uint32_t count; } sbf_gait_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_leg_init(sbf_leg *leg);
 SBF_API void sbf_head_turn_init(sbf_head_turn *head_turn);
 SBF_API void sbf_tail_init(sbf_tail *tail);
@@ -191,7 +191,7 @@ SBF_API void sbf_tread_init(sbf_tread *tread);
 SBF_API void sbf_medium_init(sbf_medium *medium);
 SBF_API void sbf_gait_init(sbf_gait *gait);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_gait_kind_name(sbf_gait_kind value);
 SBF_API const char *sbf_wave_plane_name(sbf_wave_plane value);
 SBF_API const char *sbf_fin_motion_name(sbf_fin_motion value);

@@ -1,5 +1,5 @@
-/* Inverse kinematics: chains of bones that reach for a target. A chapter of sbfmt/model.h, which says what holds for
- * all of them.
+/* Inverse kinematics: chains of bones that reach for a target. Part of sbfmt/model.h, which documents the common
+ * conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_IK_H
@@ -13,7 +13,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of ik_solver, in the file's spelling by sbf_ik_solver_name. */
+/* Values of ik_solver; sbf_ik_solver_name returns their names in files. */
 typedef enum sbf_ik_solver {
   SBF_IK_SOLVER_TWO_BONE = 0,
   SBF_IK_SOLVER_CCD = 1,
@@ -38,7 +38,7 @@ typedef struct sbf_ik_chain {
   const char *name;           /* Name for people. */
   sbf_ik_solver solver;       /* Method. [default two_bone] */
   int32_t root;               /* First bone. [index into asset.bones, or SBF_NONE] */
-  int32_t end;                /* Last bone; its head is what reaches. [index into asset.bones, or SBF_NONE] */
+  int32_t end;                /* Last bone; its head reaches for the target. [index into asset.bones, or SBF_NONE] */
   bool has_pole;              /* The chain bends towards the pole. [default false] */
   sbf_vec3 pole;              /* The pole, asset space, rest pose. [m] */
   int32_t pole_bone;          /* Bone that moves the pole; absent: the root bone's parent.
@@ -52,11 +52,11 @@ typedef struct sbf_ik_chain {
 } sbf_ik_chain;
 typedef struct sbf_ik_chain_list { const sbf_ik_chain *at; uint32_t count; } sbf_ik_chain_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_comfort_init(sbf_comfort *comfort);
 SBF_API void sbf_ik_chain_init(sbf_ik_chain *ik_chain);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_ik_solver_name(sbf_ik_solver value);
 
 // clang-format on

@@ -1,4 +1,4 @@
-/* Title, origin, and records of computed parts. A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Title, origin, and records of computed parts. Part of sbfmt/model.h, which documents the common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_INFO_H
@@ -29,7 +29,7 @@ typedef struct sbf_source_list { const sbf_source *at; uint32_t count; } sbf_sou
 /* Title and origin of the asset. */
 typedef struct sbf_info {
   const char *title;        /* Name for people. */
-  const char *licence;      /* Licence, as an SPDX expression where there is one. */
+  const char *licence;      /* Licence, as an SPDX expression if there is one. */
   const char *copyright;    /* Owner of the rights. */
   const char *tool;         /* Program and version that wrote the source parts. */
   const char *comment;      /* Other text for people. */
@@ -62,7 +62,7 @@ typedef struct sbf_extension {
 } sbf_extension;
 typedef struct sbf_extension_list { const sbf_extension *at; uint32_t count; } sbf_extension_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_author_init(sbf_author *author);
 SBF_API void sbf_source_init(sbf_source *source);
 SBF_API void sbf_info_init(sbf_info *info);

@@ -1,5 +1,5 @@
-/* Simulation levels: points, elastic model, embeddings, stepping. A chapter of sbfmt/model.h, which says what holds for
- * all of them.
+/* Simulation levels: points, elastic model, embeddings, stepping. Part of sbfmt/model.h, which documents the common
+ * conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_LEVEL_H
@@ -14,7 +14,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of elastic_model, in the file's spelling by sbf_elastic_model_name. */
+/* Values of elastic_model; sbf_elastic_model_name returns their names in files. */
 typedef enum sbf_elastic_model {
   SBF_ELASTIC_MODEL_SPRINGS = 0,
   SBF_ELASTIC_MODEL_TETRAHEDRA = 1,
@@ -23,7 +23,7 @@ typedef enum sbf_elastic_model {
   SBF_ELASTIC_MODEL_COUNT = 4
 } sbf_elastic_model;
 
-/* Words of scheme, in the file's spelling by sbf_scheme_name. */
+/* Values of scheme; sbf_scheme_name returns their names in files. */
 typedef enum sbf_scheme {
   SBF_SCHEME_AUTOMATIC = 0,
   SBF_SCHEME_SYMPLECTIC = 1,
@@ -113,7 +113,7 @@ typedef struct sbf_relaxation {
 } sbf_relaxation;
 typedef struct sbf_relaxation_list { const sbf_relaxation *at; uint32_t count; } sbf_relaxation_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_embedding_init(sbf_embedding *embedding);
 SBF_API void sbf_measured_init(sbf_measured *measured);
 SBF_API void sbf_simulation_init(sbf_simulation *simulation);
@@ -121,7 +121,7 @@ SBF_API void sbf_calibration_init(sbf_calibration *calibration);
 SBF_API void sbf_level_init(sbf_level *level);
 SBF_API void sbf_relaxation_init(sbf_relaxation *relaxation);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_elastic_model_name(sbf_elastic_model value);
 SBF_API const char *sbf_scheme_name(sbf_scheme value);
 

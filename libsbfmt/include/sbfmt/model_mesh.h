@@ -1,5 +1,5 @@
-/* Render meshes: polygons, normals, texture coordinates, skin weights, shape keys and coarser levels. A chapter of
- * sbfmt/model.h, which says what holds for all of them.
+/* Render meshes: polygons, normals, texture coordinates, skin weights, shape keys and coarser levels. Part of
+ * sbfmt/model.h, which documents the common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_MESH_H
@@ -13,7 +13,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of mesh_target, in the file's spelling by sbf_mesh_target_name. */
+/* Values of mesh_target; sbf_mesh_target_name returns their names in files. */
 typedef enum sbf_mesh_target {
   SBF_MESH_TARGET_RENDERING = 0,
   SBF_MESH_TARGET_SURFACE = 1,
@@ -106,7 +106,7 @@ typedef struct sbf_render_mesh {
 } sbf_render_mesh;
 typedef struct sbf_render_mesh_list { const sbf_render_mesh *at; uint32_t count; } sbf_render_mesh_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_polygon_mesh_init(sbf_polygon_mesh *polygon_mesh);
 SBF_API void sbf_uv_set_init(sbf_uv_set *uv_set);
 SBF_API void sbf_material_slot_init(sbf_material_slot *material_slot);
@@ -115,7 +115,7 @@ SBF_API void sbf_shape_key_init(sbf_shape_key *shape_key);
 SBF_API void sbf_render_level_init(sbf_render_level *render_level);
 SBF_API void sbf_render_mesh_init(sbf_render_mesh *render_mesh);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_mesh_target_name(sbf_mesh_target value);
 
 // clang-format on

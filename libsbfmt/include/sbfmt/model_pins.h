@@ -1,5 +1,5 @@
-/* Pins of soft bodies to bones, rigid bodies or the world. A chapter of sbfmt/model.h, which says what holds for all of
- * them.
+/* Pins of soft bodies to bones, rigid bodies or the world. Part of sbfmt/model.h, which documents the common
+ * conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_PINS_H
@@ -13,7 +13,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of attachment_rule, in the file's spelling by sbf_attachment_rule_name. */
+/* Values of attachment_rule; sbf_attachment_rule_name returns their names in files. */
 typedef enum sbf_attachment_rule {
   SBF_ATTACHMENT_RULE_EXPLICIT = 0,
   SBF_ATTACHMENT_RULE_INSIDE_HULL = 1,
@@ -45,11 +45,11 @@ typedef struct sbf_attachment {
 } sbf_attachment;
 typedef struct sbf_attachment_list { const sbf_attachment *at; uint32_t count; } sbf_attachment_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_pin_set_init(sbf_pin_set *pin_set);
 SBF_API void sbf_attachment_init(sbf_attachment *attachment);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_attachment_rule_name(sbf_attachment_rule value);
 
 // clang-format on

@@ -1,4 +1,4 @@
-/* Rigid bodies and the joints between them. A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Rigid bodies and the joints between them. Part of sbfmt/model.h, which documents the common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_RIGID_H
@@ -12,14 +12,14 @@ extern "C" {
 
 // clang-format off
 
-/* Words of body_motion, in the file's spelling by sbf_body_motion_name. */
+/* Values of body_motion; sbf_body_motion_name returns their names in files. */
 typedef enum sbf_body_motion {
   SBF_BODY_MOTION_KINEMATIC = 0,
   SBF_BODY_MOTION_DYNAMIC = 1,
   SBF_BODY_MOTION_COUNT = 2
 } sbf_body_motion;
 
-/* Words of joint_kind, in the file's spelling by sbf_joint_kind_name. */
+/* Values of joint_kind; sbf_joint_kind_name returns their names in files. */
 typedef enum sbf_joint_kind {
   SBF_JOINT_KIND_PRISMATIC = 0,
   SBF_JOINT_KIND_REVOLUTE = 1,
@@ -34,7 +34,7 @@ typedef enum sbf_joint_kind {
   SBF_JOINT_KIND_COUNT = 10
 } sbf_joint_kind;
 
-/* Words of joint_axis, in the file's spelling by sbf_joint_axis_name. */
+/* Values of joint_axis; sbf_joint_axis_name returns their names in files. */
 typedef enum sbf_joint_axis {
   SBF_JOINT_AXIS_LINEAR_X = 0,
   SBF_JOINT_AXIS_LINEAR_Y = 1,
@@ -115,7 +115,7 @@ typedef struct sbf_joint {
   sbf_limit_list limits;  /* Limits of free motions. */
   sbf_drive_list drives;  /* Motors. */
   sbf_vec3 pulley_a;      /* Pulley: support of body a's rope, asset space, fixed in the world at placement. [m] */
-  sbf_vec3 pulley_b;      /* Pulley: support of body b's rope, likewise. [m] */
+  sbf_vec3 pulley_b;      /* Pulley: support of body b's rope, in the same way. [m] */
   float pulley_ratio;     /* Pulley: factor of the rope on side b. [(0, inf); default 1] */
   float break_force;      /* Breaking value; 0: never. [N; [0, inf)] */
   float break_torque;     /* Breaking value; 0: never. [N*m; [0, inf)] */
@@ -123,14 +123,14 @@ typedef struct sbf_joint {
 } sbf_joint;
 typedef struct sbf_joint_list { const sbf_joint *at; uint32_t count; } sbf_joint_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_rigid_body_init(sbf_rigid_body *rigid_body);
 SBF_API void sbf_frame_init(sbf_frame *frame);
 SBF_API void sbf_limit_init(sbf_limit *limit);
 SBF_API void sbf_drive_init(sbf_drive *drive);
 SBF_API void sbf_joint_init(sbf_joint *joint);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_body_motion_name(sbf_body_motion value);
 SBF_API const char *sbf_joint_kind_name(sbf_joint_kind value);
 SBF_API const char *sbf_joint_axis_name(sbf_joint_axis value);

@@ -1,4 +1,4 @@
-/* Bones: rest pose and hierarchy. A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Bones: rest pose and hierarchy. Part of sbfmt/model.h, which documents the common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_SKELETON_H
@@ -26,7 +26,7 @@ typedef struct sbf_bone {
 } sbf_bone;
 typedef struct sbf_bone_list { const sbf_bone *at; uint32_t count; } sbf_bone_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_bone_init(sbf_bone *bone);
 
 // clang-format on

@@ -1,4 +1,4 @@
-/* Soft bodies: surface, material, collision, levels. A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Soft bodies: surface, material, collision, levels. Part of sbfmt/model.h, which documents the common conventions.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_SOFT_BODY_H
@@ -14,7 +14,7 @@ extern "C" {
 
 // clang-format off
 
-/* Words of pressure_mode, in the file's spelling by sbf_pressure_mode_name. */
+/* Values of pressure_mode; sbf_pressure_mode_name returns their names in files. */
 typedef enum sbf_pressure_mode {
   SBF_PRESSURE_MODE_NONE = 0,
   SBF_PRESSURE_MODE_GAS = 1,
@@ -22,7 +22,7 @@ typedef enum sbf_pressure_mode {
   SBF_PRESSURE_MODE_COUNT = 3
 } sbf_pressure_mode;
 
-/* Words of weight_property, in the file's spelling by sbf_weight_property_name. */
+/* Values of weight_property; sbf_weight_property_name returns their names in files. */
 typedef enum sbf_weight_property {
   SBF_WEIGHT_PROPERTY_DENSITY = 0,
   SBF_WEIGHT_PROPERTY_YOUNG_MODULUS = 1,
@@ -129,7 +129,7 @@ typedef struct sbf_section_recipe {
 } sbf_section_recipe;
 typedef struct sbf_section_recipe_list { const sbf_section_recipe *at; uint32_t count; } sbf_section_recipe_list;
 
-/* Every field at its default, lists empty, references SBF_NONE. */
+/* Sets every field to its default, lists to empty, references to SBF_NONE. */
 SBF_API void sbf_attributes_init(sbf_attributes *attributes);
 SBF_API void sbf_collision_init(sbf_collision *collision);
 SBF_API void sbf_weight_map_init(sbf_weight_map *weight_map);
@@ -137,7 +137,7 @@ SBF_API void sbf_legacy_init(sbf_legacy *legacy);
 SBF_API void sbf_soft_body_init(sbf_soft_body *soft_body);
 SBF_API void sbf_section_recipe_init(sbf_section_recipe *section_recipe);
 
-/* The word the format uses for a value, or "?" for one out of range. */
+/* The name of a value in files, or "?" if it is out of range. */
 SBF_API const char *sbf_pressure_mode_name(sbf_pressure_mode value);
 SBF_API const char *sbf_weight_property_name(sbf_weight_property value);
 
