@@ -1,9 +1,9 @@
-/* Invariants of the program's own state. Input is checked by diagnostics, never by these. */
+/* Assertions about the program's own state. Input is checked with diagnostics, never with assertions. */
 #ifndef SBFI_ASSERT_H
 #define SBFI_ASSERT_H
 
-/* Builds with SBFMT_ASSERTS (debug, sanitized, fuzzed) print the broken condition with its place and abort.
- * Other builds compile the condition and do not evaluate it. */
+/* Builds with SBFMT_ASSERTS (debug, sanitized, fuzzed) print the failed condition with file and line, and
+ * abort. Other builds compile the condition without evaluating it. */
 #ifdef SBFMT_ASSERTS
 #include <stdio.h>
 #include <stdlib.h>

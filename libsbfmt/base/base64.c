@@ -24,7 +24,7 @@ bool sbfi_base64_encode(sbfi_text *to, const uint8_t *bytes, size_t size) {
   return true;
 }
 
-/* The value of each digit, -1 for what is none. */
+/* The value of each digit; -1 for other characters. */
 static const int8_t values[128] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1,
     -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 62, -1,
     -1, -1, 63, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, -1, -1, -1, -1, -1, -1, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8,
@@ -36,7 +36,7 @@ static inline int digit_value(char c) {
   return (unsigned char)c < 128 ? values[(unsigned char)c] : -1;
 }
 
-/* Decodes whole groups of four digits as far as they go; the offset behind them. */
+/* Decodes complete groups of four digits until one is invalid; returns the offset after them. */
 static size_t read_groups(const char *text, size_t length, uint8_t **to) {
   uint8_t *at = *to;
   size_t i = 0;

@@ -1,19 +1,16 @@
-/* A CRC is the remainder of the message, as a polynomial over two elements, divided by P. Sixteen bytes that
- * stand D bits before others may be added to those if multiplied by x^D; modulo P that is a product of each
- * half with a constant of 33 bits, which keeps the sum at sixteen bytes. Four such sums run side by side,
- * since a product takes several cycles and begins every one.
- *
- * V. Gopal and others, "Fast CRC Computation for Generic Polynomials Using PCLMULQDQ Instruction", Intel,
- * 2009. */
+/* A CRC is the remainder of the message, a polynomial over GF(2), divided by P. Sixteen bytes that precede
+ * others by D bits can be added to them after multiplication by x^D. Modulo P this is a product of each half
+ * with a constant of 33 bits, so the sum keeps sixteen bytes. Four such sums run in parallel, because a
+ * product takes several cycles but a new one can start in every cycle. */
 #include "base/crc32_fold.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
 #define FOLDS __attribute__((target("pclmul,sse2")))
 
-/* For D bits: x^(D + 32) mod P for the half that comes first, x^(D - 32) for the other; as the CRC has its
- * bits, lowest power in the highest bit, and shifted by the one bit that a product of such numbers is short
- * of. */
+/* For D bits: x^(D + 32) mod P for the first half, x^(D - 32) for the other, in the bit order of the CRC (the
+ * lowest power in the highest bit). They are shifted by one bit, because the product of two bit-reversed
+ * numbers is one bit too short. */
 FOLDS static inline __m128i over_512_bits(void) {
   return _mm_set_epi64x(0x1c6e41596, 0x154442bd4);
 }
@@ -31,8 +28,8 @@ FOLDS static inline __m128i load(const uint8_t *from) {
   return _mm_loadu_si128((const __m128i *)(const void *)from);
 }
 
-/* Processors look ahead within a page only: measured, a quarter of the time where the bytes lie in the
- * third-level cache. As a number, since there may be nothing so far on. */
+/* Processors prefetch within a page only. Measured: a quarter less time if the bytes are in the third-level
+ * cache. Integer arithmetic, since the address may be out of bounds. */
 enum { AHEAD = 8192 };
 
 FOLDS static inline void announce(const uint8_t *at) {

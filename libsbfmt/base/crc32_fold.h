@@ -1,4 +1,4 @@
-/* CRC-32 at the speed of memory, where the processor multiplies without carries (PCLMULQDQ of x86-64). */
+/* CRC-32 at memory bandwidth, on processors with carry-less multiplication (PCLMULQDQ of x86-64). */
 #ifndef SBFI_CRC32_FOLD_H
 #define SBFI_CRC32_FOLD_H
 
@@ -7,9 +7,9 @@
 
 enum { SBFI_CRC32_FOLDED = 16 };
 
-/* Folds the first bytes, as many as it returns, into 16: the CRC-32 of all `size` bytes, begun with `crc`, is
- * that of the folded ones, begun with 0xFFFFFFFF, continued over the rest. Returns 0, and folds nothing,
- * where the processor cannot or `size` is below 64. */
+/* Folds the first bytes into 16 and returns their number. The CRC-32 of all `size` bytes with initial value
+ * `crc` equals that of `folded` with initial value 0xFFFFFFFF, continued over the remaining bytes. Returns 0
+ * and does nothing if the processor lacks the instruction or `size` is below 64. */
 size_t sbfi_crc32_fold(uint32_t crc, const void *bytes, size_t size, uint8_t folded[SBFI_CRC32_FOLDED]);
 
 #endif

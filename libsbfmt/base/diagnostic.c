@@ -11,7 +11,7 @@ void sbfi_copy_text(char *to, size_t size, const char *text) {
   to[kept] = 0;
 }
 
-/* A message that filled its room may have lost the end of its last character. */
+/* A truncated message may end within a character. */
 static void drop_broken_end(char *text, size_t size) {
   size_t length = strlen(text), good;
   if (length + 1 < size) return;

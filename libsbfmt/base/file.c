@@ -12,7 +12,7 @@ sbf_status sbfi_file_read(const char *path, uint64_t limit_bytes, const sbf_allo
   return sbfi_file_get(path, false, limit_bytes, allocator, content, error);
 }
 
-/* Closes what the writer holds, and frees its room. */
+/* Closes the writer's file and frees its memory. */
 static void end(sbfi_file_writer *writer) {
   sbfi_file_shut(writer);
   sbfi_free(&writer->allocator, writer->memory, writer->memory_bytes);
@@ -56,7 +56,7 @@ sbf_status sbfi_file_writer_commit(sbfi_file_writer *writer, sbf_diagnostic *err
   if (!writer->is_open) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the file writer is not open");
   const char *path = writer->given_path;
   flush(writer);
-  /* What is not a regular file often cannot be synced. */
+  /* Devices and pipes often cannot be synced. */
   if (writer->failure == 0 && writer->temporary_path) writer->failure = sbfi_file_sync(writer);
   int closed = sbfi_file_shut(writer);
   if (writer->failure == 0) writer->failure = closed;
@@ -72,7 +72,7 @@ sbf_status sbfi_file_writer_commit(sbfi_file_writer *writer, sbf_diagnostic *err
 
 void sbfi_file_writer_abandon(sbfi_file_writer *writer) {
   if (!writer->is_open) return;
-  sbfi_file_shut(writer); /* an open file cannot be removed everywhere */
+  sbfi_file_shut(writer); /* some systems cannot remove an open file */
   if (writer->temporary_path) sbfi_file_remove(writer->temporary_path);
   end(writer);
 }

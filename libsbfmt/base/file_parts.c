@@ -1,4 +1,4 @@
-/* What reading a file shares on every system: faults of size, and room for its content. */
+/* Parts of reading a file that all systems share: size errors, and memory for the content. */
 #include <string.h>
 
 #include "base/file_system.h"

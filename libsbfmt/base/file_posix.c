@@ -1,4 +1,4 @@
-/* Files by POSIX calls: read, mapped, and written beside the old one before they take its place. */
+/* Files with POSIX calls: reading, mapping, and writing to a temporary file that replaces the old one. */
 #define _XOPEN_SOURCE 700
 #define _FILE_OFFSET_BITS 64
 #include "base/file_system.h"
@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 enum {
-  LARGEST_TRANSFER = 1 << 30, /* some systems refuse more in one call */
+  LARGEST_TRANSFER = 1 << 30, /* some systems refuse more per call */
   FIRST_READ_BYTES = 1 << 16,
   TEMPORARY_TRIES = 100
 };
@@ -45,7 +45,7 @@ static ssize_t read_again(int handle, void *to, size_t size) {
   return got;
 }
 
-/* Opens for reading and looks what it is; -1 and an error where either fails. */
+/* Opens for reading and gets the status; -1 and an error if either fails. */
 static int open_to_read(const char *path, struct stat *facts, sbf_status *status, sbf_diagnostic *error) {
   int handle = open_again(path, O_RDONLY, 0);
   if (handle >= 0) {
@@ -57,8 +57,8 @@ static int open_to_read(const char *path, struct stat *facts, sbf_status *status
   return -1;
 }
 
-/* Reads to the end. The size a regular file claims is only where to begin: it may change, and files made by
- * the system claim none. One byte of room more shows the end without growing. */
+/* Reads to the end. The stated size of a regular file is only the initial capacity: it may change, and files
+ * in /proc state none. One additional byte detects the end without growing. */
 static sbf_status read_to_end(int handle, const char *path, uint64_t expected_bytes, uint64_t limit_bytes,
     sbfi_file_content *content, sbf_diagnostic *error) {
   if (limit_bytes && expected_bytes > limit_bytes) return sbfi_file_too_large(error, path, limit_bytes);
@@ -126,7 +126,7 @@ sbf_status sbfi_file_read_at(
     const sbfi_file *file, uint64_t offset, void *to, size_t size, sbf_diagnostic *error) {
   uint8_t *at = to;
   while (size > 0) {
-    /* An offset that off_t cannot hold is behind every end. */
+    /* An offset that off_t cannot hold is beyond every end. */
     ssize_t got = offset > INT64_MAX ? 0
                                      : pread((int)file->handle, at,
                                            size < LARGEST_TRANSFER ? size : LARGEST_TRANSFER, (off_t)offset);
@@ -145,14 +145,14 @@ void sbfi_file_close(sbfi_file *file) {
   file->handle = -1;
 }
 
-/* Where the name begins in the path of a writer's temporary file. */
+/* Offset of the file name in the path of a writer's temporary file. */
 static size_t folder_length(const sbfi_file_writer *writer) {
   const char *slash = strrchr(writer->final_path, '/');
   return slash ? (size_t)(slash - writer->final_path) + 1 : 0;
 }
 
-/* Tries new names beside the final one until `make` makes one, as open does. The name is short, since a long
- * one plus a suffix might be too long for the file system. Without success there is none. */
+/* Tries new names in the target's folder until `make` succeeds, with the result of open. The name is short,
+ * since a long name plus a suffix might be too long for the file system. After failure there is no name. */
 static int with_new_name(sbfi_file_writer *writer, int (*make)(const sbfi_file_writer *writer)) {
   char *name = writer->temporary_path + folder_length(writer);
   struct timespec now = {0, 0};
@@ -177,8 +177,8 @@ static int name_unnamed(const sbfi_file_writer *writer) {
   return sbfi_unnamed_file_name((int)writer->handle, writer->temporary_path);
 }
 
-/* A file beside the final one. Until it is whole it has no name where the system can do so: whatever ends the
- * process, nothing is left behind. */
+/* Creates a file in the target's folder. If the system supports it, the file has no name until it is
+ * complete, so nothing is left behind whenever the process ends. */
 static int create_temporary(sbfi_file_writer *writer) {
   size_t folder = folder_length(writer);
   memcpy(writer->temporary_path, writer->final_path, folder);
@@ -187,23 +187,23 @@ static int create_temporary(sbfi_file_writer *writer) {
   return handle >= 0 ? handle : with_new_name(writer, create_named);
 }
 
-/* Renaming would put the file in the place of a link that names nothing. */
+/* A rename would replace a dangling link by the file. */
 static bool is_link(const char *path) {
   struct stat facts;
   return lstat(path, &facts) == 0 && S_ISLNK(facts.st_mode);
 }
 
-/* Opens what is to be written to; 0 or an error number. */
+/* Opens the file to write to; 0 or an error number. */
 int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path) {
   struct stat old;
   bool exists = stat(path, &old) == 0;
   int absent = exists ? 0 : errno;
-  if (!exists && is_link(path)) return absent; /* to nothing */
+  if (!exists && is_link(path)) return absent; /* a dangling link */
   if (exists && S_ISDIR(old.st_mode)) return EISDIR;
-  /* A rename would go around the write permission of the file itself. */
+  /* A rename would bypass the write permission of the file. */
   if (exists && faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) != 0) return errno;
   bool direct = exists && !S_ISREG(old.st_mode);
-  /* A rename would replace a link, not the file it names. */
+  /* A rename would replace the link instead of its target. */
   char *resolved = exists && !direct ? realpath(path, NULL) : NULL;
   if (exists && !direct && !resolved) return errno;
   bool allocated = sbfi_file_writer_reserve(writer, resolved ? resolved : path);
@@ -232,7 +232,7 @@ void sbfi_file_put(sbfi_file_writer *writer, const uint8_t *at, size_t size) {
   }
 }
 
-/* Makes the rename itself last. Where the system cannot sync a folder there is nothing to be done. */
+/* Makes the rename itself durable. Ignores systems that cannot sync a folder. */
 static void sync_folder(const char *path) {
   const char *slash = strrchr(path, '/');
   size_t length = slash ? (size_t)(slash - path) : 0;

@@ -1,4 +1,4 @@
-/* A page has no files: what is loaded lies in memory, and what is saved is made there. */
+/* A web page has no files: loads and saves use memory. */
 #include "base/file.h"
 #include "base/text.h"
 

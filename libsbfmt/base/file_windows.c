@@ -1,4 +1,4 @@
-/* Files by calls of Windows: read, mapped, and written beside the old one before they take its place. */
+/* Files with Windows calls: reading, mapping, and writing to a temporary file that replaces the old one. */
 #include <stdio.h>
 #include <string.h>
 
@@ -32,7 +32,7 @@ sbf_status sbfi_file_fault(
   return status;
 }
 
-/* Opens for reading; INVALID_HANDLE_VALUE and an error where that fails. `*size` is 0 for what has none. */
+/* Opens for reading; INVALID_HANDLE_VALUE and an error on failure. `*size` is 0 if the file has none. */
 static HANDLE open_to_read(const char *path, uint64_t *size, sbf_status *status, sbf_diagnostic *error) {
   wchar_t wide[SBFI_WIDE_PATH];
   HANDLE handle = INVALID_HANDLE_VALUE;
@@ -56,7 +56,7 @@ static HANDLE open_to_read(const char *path, uint64_t *size, sbf_status *status,
   return handle;
 }
 
-/* To the end. One byte of room more than the expected size shows that end without growing. */
+/* Reads to the end. One byte more than the expected size detects the end without growing. */
 static sbf_status read_to_end(HANDLE handle, const char *path, uint64_t expected_bytes, uint64_t limit_bytes,
     sbfi_file_content *content, sbf_diagnostic *error) {
   if (limit_bytes && expected_bytes > limit_bytes) return sbfi_file_too_large(error, path, limit_bytes);
@@ -157,7 +157,7 @@ static size_t folder_length(const char *path) {
   return length;
 }
 
-/* Creates a file of a new name beside the final one. */
+/* Creates a file with a new name in the target's folder. */
 static HANDLE create_temporary(sbfi_file_writer *writer) {
   wchar_t wide[SBFI_WIDE_PATH];
   size_t folder = folder_length(writer->final_path);
@@ -177,7 +177,7 @@ static HANDLE create_temporary(sbfi_file_writer *writer) {
   return INVALID_HANDLE_VALUE;
 }
 
-/* What a link names, so that the link stays one. */
+/* Resolves a link, so that the link itself is kept. */
 static bool follow(const wchar_t *path, char *to, size_t size) {
   wchar_t wide[SBFI_WIDE_PATH];
   HANDLE handle = CreateFileW(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
@@ -188,7 +188,7 @@ static bool follow(const wchar_t *path, char *to, size_t size) {
   return length > 0 && length < SBFI_WIDE_PATH && sbfi_narrow_path(wide, to, size);
 }
 
-/* Opens what is to be written to; 0 or an error number. */
+/* Opens the file to write to; 0 or an error number. */
 int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path) {
   wchar_t wide[SBFI_WIDE_PATH];
   char followed[3 * SBFI_WIDE_PATH];
@@ -201,7 +201,7 @@ int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path) {
     if (!follow(wide, followed, sizeof followed)) return (int)GetLastError();
     path = followed;
   }
-  /* A device, as CON or a pipe, has no attributes of a file. */
+  /* A device, such as CON or a pipe, has no file attributes. */
   HANDLE device = INVALID_HANDLE_VALUE;
   if (!exists)
     device =

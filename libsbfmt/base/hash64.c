@@ -1,5 +1,5 @@
 /* XXH64, written from the description "xxHash fast digest algorithm", version 0.1.1, by Y. Collet: four lanes
- * of 64 bits take eight bytes each, are merged at the end, and the rest is mixed in behind them. */
+ * of 64 bits consume eight bytes each and are merged at the end; then the remaining bytes are mixed in. */
 #include "base/hash64.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ static inline uint64_t rotate(uint64_t x, int left) {
   return x << left | x >> (64 - left);
 }
 
-/* Little-endian numbers from bytes; compilers make one load of it where the machine is little-endian. */
+/* Loads little-endian numbers; compilers emit one load on little-endian machines. */
 static inline uint64_t load32(const uint8_t *at) {
   return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24;
 }
@@ -70,7 +70,7 @@ static bool is_little_endian(void) {
   return first == 1;
 }
 
-/* Numbers of `width` bytes as little-endian bytes. */
+/* Adds numbers of `width` bytes as little-endian bytes. */
 static void take_numbers(sbfi_hash64 *hash, const void *numbers, size_t count, size_t width) {
   if (is_little_endian()) {
     sbfi_hash64_add_bytes(hash, numbers, count * width);
@@ -101,7 +101,7 @@ void sbfi_hash64_add_f64(sbfi_hash64 *hash, const double *numbers, size_t count)
 }
 
 uint64_t sbfi_hash64_value(const sbfi_hash64 *hash) {
-  uint64_t value = prime5; /* with less than a stripe the lanes are left out */
+  uint64_t value = prime5; /* input below one stripe does not use the lanes */
   if (hash->size >= STRIPE) {
     const uint64_t *lane = hash->lane;
     value = rotate(lane[0], 1) + rotate(lane[1], 7) + rotate(lane[2], 12) + rotate(lane[3], 18);

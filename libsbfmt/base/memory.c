@@ -42,7 +42,7 @@ bool sbfi_add_size(size_t a, size_t b, size_t *sum) {
 
 struct sbfi_arena_block {
   sbfi_arena_block *previous;
-  size_t size; /* of the whole block, this header included */
+  size_t size; /* of the whole block, including this header */
   size_t used;
 };
 
@@ -121,7 +121,7 @@ bool sbfi_array_reserve(sbfi_array *array, size_t capacity) {
 
 void *sbfi_array_push(sbfi_array *array, size_t count) {
   size_t total;
-  /* Room for one even where none is asked for: NULL means that memory ran out. */
+  /* Reserves at least one item, since NULL means that memory ran out. */
   if (!sbfi_add_size(array->count, count, &total) || !sbfi_array_reserve(array, total ? total : 1))
     return NULL;
   char *destination = (char *)array->at + array->count * array->item_size;

@@ -1,10 +1,10 @@
-/* Allocation: checked sizes, the default allocator, and an arena that frees all it gave in one call. */
+/* Allocation: checked sizes, the default allocator, and an arena that frees all its blocks in one call. */
 #ifndef SBFI_MEMORY_H
 #define SBFI_MEMORY_H
 
 #include "sbfmt/base.h"
 
-/* The allocator `a` points at, or malloc's where it is NULL. */
+/* The allocator that `a` points to, or malloc's if it is NULL. */
 sbf_allocator sbfi_allocator_or_default(const sbf_allocator *a);
 
 void *sbfi_allocate(const sbf_allocator *a, size_t size); /* NULL on failure or size 0 */
@@ -14,13 +14,13 @@ void sbfi_free(const sbf_allocator *a, void *memory, size_t size);
 bool sbfi_multiply_size(size_t a, size_t b, size_t *product);
 bool sbfi_add_size(size_t a, size_t b, size_t *sum);
 
-/* Blocks of growing size; what it returns is zeroed, aligned to 16 (64 from 256 bytes on), and lives until
+/* Allocates blocks of growing size. Memory is zeroed, aligned to 16 (64 from 256 bytes on), and lives until
  * the arena is freed. Not thread safe. */
 typedef struct sbfi_arena_block sbfi_arena_block;
 typedef struct sbfi_arena {
   sbf_allocator allocator;
   sbfi_arena_block *last;
-  size_t used_bytes;  /* given out so far */
+  size_t used_bytes;  /* allocated so far */
   size_t limit_bytes; /* 0: none */
 } sbfi_arena;
 
@@ -31,7 +31,7 @@ void *sbfi_arena_allocate(
 void *sbfi_arena_copy(sbfi_arena *arena, const void *from, size_t count, size_t size);
 char *sbfi_arena_string(sbfi_arena *arena, const char *text, size_t length); /* NUL-terminated copy */
 
-/* A growing array outside any arena: sbfi_array_push returns the place of the new item, or NULL. */
+/* A growing array outside any arena. sbfi_array_push returns a pointer to the new item, or NULL. */
 typedef struct sbfi_array {
   sbf_allocator allocator;
   void *at;

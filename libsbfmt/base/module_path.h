@@ -1,16 +1,16 @@
-/* Where the running program and this library lie, to find what is installed beside them. One implementation a
- * system (module_path_posix.c). */
+/* Location of the running program and of this library, to find files installed beside them. One
+ * implementation per system (module_path_posix.c). */
 #ifndef SBFI_MODULE_PATH_H
 #define SBFI_MODULE_PATH_H
 
 #include "sbfmt/base.h"
 
-/* The folder, without a slash at its end, of the running program; of the shared library (or program) that
- * this code was linked into. False where the system does not say or `size` is too small. */
+/* Folders, without a slash at the end: of the running program; of the shared library (or program) that
+ * contains this code. False if the system does not report it or `size` is too small. */
 bool sbfi_program_folder(char *to, size_t size);
 bool sbfi_library_folder(char *to, size_t size);
 
-/* Whether the path names a regular file that this user may run. */
+/* Whether the path names a regular file that this user may execute. */
 bool sbfi_is_program(const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* Where the program and the library lie, as the dynamic linker tells it. */
+/* Location of the program and the library, from the dynamic linker. */
 #define _GNU_SOURCE /* dladdr */
 #include "base/module_path.h"
 
@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The folder of a path, its links followed. */
+/* The folder of a path, with links resolved. */
 static bool folder_of(const char *path, char *to, size_t size) {
   char *real = realpath(path, NULL);
   char *slash = real ? strrchr(real, '/') : NULL;
@@ -29,7 +29,7 @@ bool sbfi_library_folder(char *to, size_t size) {
   static const char here = 0; /* any address of this module */
   Dl_info info;
   if (!dladdr(&here, &info) || !info.dli_fname) return false;
-  /* A program is named as it was called: without a slash that says nothing of where it lies. */
+  /* A program has the name of its call; without a slash this does not give its location. */
   return strchr(info.dli_fname, '/') && folder_of(info.dli_fname, to, size);
 }
 

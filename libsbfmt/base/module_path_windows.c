@@ -1,4 +1,4 @@
-/* Where the program and the library lie, as Windows tells it. */
+/* Location of the program and the library, from Windows. */
 #include "base/module_path.h"
 
 #include <string.h>

@@ -21,27 +21,27 @@
 
 typedef enum sbfi_number_status {
   SBFI_NUMBER_READ = 0,
-  SBFI_NUMBER_MALFORMED,   /* no number stands there, or one that breaks off, as "1e" does */
-  SBFI_NUMBER_OUT_OF_RANGE /* a number, but not one of this type */
+  SBFI_NUMBER_MALFORMED,   /* no number, or an incomplete one such as "1e" */
+  SBFI_NUMBER_OUT_OF_RANGE /* a number outside the type's range */
 } sbfi_number_status;
 
-/* Reads the number that the span begins with; what follows it is the caller's to judge ("1..2" gives 1 and
- * stops at the second point). `*used` becomes the length of the number or, for a malformed one, the offset of
- * the character that cannot stand there. `*value` is written only on SBFI_NUMBER_READ. */
+/* Reads the number at the start of the span; the caller checks what follows it ("1..2" gives 1 and stops at
+ * the second point). `*used` receives the length of the number or, if malformed, the offset of the first
+ * invalid character. `*value` is written only on SBFI_NUMBER_READ. */
 sbfi_number_status sbfi_scan_f32(const char *text, size_t length, float *value, size_t *used);
 sbfi_number_status sbfi_scan_i32(const char *text, size_t length, int32_t *value, size_t *used);
 sbfi_number_status sbfi_scan_u32(const char *text, size_t length, uint32_t *value, size_t *used);
 
-/* The same where the span must hold the number and nothing else. */
+/* The same, but the span must contain nothing else. */
 sbfi_number_status sbfi_parse_f32(const char *text, size_t length, float *value);
 sbfi_number_status sbfi_parse_i32(const char *text, size_t length, int32_t *value);
 sbfi_number_status sbfi_parse_u32(const char *text, size_t length, uint32_t *value);
 
-/* The room a number needs; no NUL is written. */
+/* Maximum length of a number; no NUL is written. */
 enum { SBFI_F32_TEXT_SIZE = 16, SBFI_INTEGER_TEXT_SIZE = 20 };
 
 /* Each writes the number to `to` and returns its length. sbfi_print_f32 returns 0 and writes nothing for an
- * infinity or a NaN, which have no text. */
+ * infinity or a NaN, which have no text form. */
 size_t sbfi_print_f32(char *to, float value);
 size_t sbfi_print_i32(char *to, int32_t value);
 size_t sbfi_print_u32(char *to, uint32_t value);

@@ -1,12 +1,12 @@
-/* Text to float32, correctly rounded, by integers alone (so the rounding mode cannot matter).
+/* Text to float32, correctly rounded, with integers only, so that the rounding mode does not matter.
  *
- * A decimal w * 10^q, w of 19 digits at most, is multiplied by a 64-bit significand of 10^q; the product
- * gives an interval that holds the exact value and is 2^-57 of it wide. If both its ends round to the same
- * float32, that is the answer. Where they do not, which is so for exact ties and about one number in 2^33
- * else, the exact decimal is compared with the one tie inside the interval, in long integers. The two steps
- * follow W. D. Clinger, "How to read floating point numbers accurately", PLDI 1990; D. Lemire, "Number
- * parsing at a gigabyte per second", Software: Practice and Experience 51(8), 2021; we keep 64 bits of each
- * power instead of 128, since a float32 leaves 39 bits of slack. */
+ * A decimal w * 10^q, w of at most 19 digits, is multiplied by a 64-bit significand of 10^q; the product
+ * gives an interval that contains the exact value, with a relative width of 2^-57. If both ends round to the
+ * same float32, that is the result. Otherwise (exact ties, and about one other number in 2^33) the exact
+ * decimal is compared with the single tie inside the interval, using long integers. The two steps follow W.
+ * D. Clinger, "How to read floating point numbers accurately", PLDI 1990; D. Lemire, "Number parsing at a
+ * gigabyte per second", Software: Practice and Experience 51(8), 2021; we keep 64 bits of each power instead
+ * of 128, since a float32 leaves 39 bits of slack. */
 #include "base/number.h"
 
 #include <string.h>
@@ -16,13 +16,13 @@
 enum {
   SHORT_DIGITS = 19, /* always fit 64 bits */
   LONG_DIGITS = 120, /* a tie between two float32 has at most 113 significant digits */
-  LIMB_COUNT = 24    /* 768 bits; compare_with_tie says why that is enough */
+  LIMB_COUNT = 24    /* 768 bits, enough for compare_with_tie */
 };
 
 /* The digits of one number as they stand in the text: [first, last) with at most one point among them. */
 typedef struct digit_run {
   const char *first, *last;
-  int64_t exponent; /* of ten, were the point after the last digit */
+  int64_t exponent; /* of ten, if the point were after the last digit */
   bool negative;
 } digit_run;
 
@@ -83,13 +83,13 @@ static int compare(const long_integer *a, const long_integer *b) {
   return 0;
 }
 
-/* How the exact value of the digits compares with tie * 2^exponent, tie being odd and below 2^26.
+/* Compares the exact value of the digits with tie * 2^exponent; tie is odd and below 2^26.
  *
- * Digits behind the first LONG_DIGITS count only as "a little more". That is exact: the tie ends before that
- * place, so if the kept digits are below it then so are all, and if they equal it the rest decides.
- * The two are known to agree within a factor of four, so once the shift has brought them to one scale neither
- * is much longer than the longer one was before: 120 digits take 399 bits, 2^26 * 5^166 (by the smallest
- * subnormal) 412. Positive powers stay small, since the number is below 10^39. */
+ * Digits after the first LONG_DIGITS count only as "slightly more". That is exact, because the tie has no
+ * digits there: if the kept digits are below the tie, so are all digits; if they are equal, the remaining
+ * digits decide. The two numbers agree within a factor of four, so after shifting both to one scale neither
+ * is much longer than the longer one before: 120 digits take 399 bits, 2^26 * 5^166 (for the smallest
+ * subnormal) takes 412. Positive powers stay small, since the number is below 10^39. */
 static int compare_with_tie(const digit_run *run, uint32_t tie, int exponent) {
   long_integer a = {.count = 0}, b = {.limb = {tie}, .count = 1};
   int64_t power = run->exponent;
@@ -114,21 +114,22 @@ static int compare_with_tie(const digit_run *run, uint32_t tie, int exponent) {
   return order == 0 && more ? 1 : order;
 }
 
-/* digits * 10^power, digits not 0, as the bits of the nearest float32; 0x7F800000 where that is infinite.
- * `run` is the whole of the number, of which `digits` may have only the first 19. */
+/* Bits of the float32 nearest to digits * 10^power, digits not 0; 0x7F800000 if infinite. `run` is the whole
+ * number; `digits` may be only its first 19 digits. */
 static uint32_t nearest_f32(const digit_run *run, uint64_t digits, int64_t power) {
-  if (power > 38) return 0x7F800000;    /* 10^39 and more */
+  if (power > 38) return 0x7F800000;    /* at least 10^39 */
   if (power < SBFI_POWER_MIN) return 0; /* less than 10^19 * 10^-66, below half the smallest subnormal */
   int zeros = leading_zeros(digits);
-  /* The exact value lies in (high - 1, high + 17) * 2^exponent: the significand of the power is short by less
-   * than 1, which adds less than 1 to the product's upper half; digits beyond the nineteenth add less than 1
-   * to `digits`, shifted by 4 at most, so less than 16; and halving, to leave room for sums, drops a half. */
+  /* The exact value is in (high - 1, high + 17) * 2^exponent. The significand of the power is too small by
+   * less than 1, which adds less than 1 to the product's upper half. Digits beyond the nineteenth add less
+   * than 1 to `digits`, shifted by at most 4, so less than 16. Halving, to leave a bit for sums, drops a
+   * half. */
   uint64_t high = multiply_high(digits << zeros, sbfi_power_significand((int)power)) >> 1;
   int exponent = 65 + sbfi_log2_of_power((int)power) - 63 - zeros;
-  /* Places of `high` below the last bit of the float: 24 stay of 62 or 63, fewer for a subnormal. */
+  /* Bits of `high` below the last bit of the float: 24 of 62 or 63 are kept, fewer for a subnormal. */
   int drop = high >> 62 ? 39 : 38;
   if (drop + exponent < -149) drop = -149 - exponent;
-  if (drop > 64) return 0; /* a quarter of the smallest subnormal at most */
+  if (drop > 64) return 0; /* at most a quarter of the smallest subnormal */
   uint32_t above = 1, below = 0;
   if (drop < 63) {
     uint64_t half = UINT64_C(1) << (drop - 1);
@@ -140,11 +141,11 @@ static uint32_t nearest_f32(const digit_run *run, uint64_t digits, int64_t power
     int order = compare_with_tie(run, 2 * above - 1, exponent + drop - 1);
     if (order < 0 || (order == 0 && (above & 1))) rounded--;
   }
-  /* The leading bit of a normal number, and a carry out of the significand, count up the exponent field. */
+  /* The leading bit of a normal number, and a carry out of the significand, increment the exponent field. */
   return ((uint32_t)(exponent + drop + 149) << 23) + rounded;
 }
 
-/* The first 19 significant digits of a longer run; how many digits stand behind them. */
+/* Returns the first 19 significant digits of a longer run, and the number of digits after them. */
 static int64_t first_digits(const digit_run *run, uint64_t *digits) {
   int taken = 0;
   int64_t left = 0;
@@ -161,7 +162,7 @@ static int64_t first_digits(const digit_run *run, uint64_t *digits) {
   return left;
 }
 
-/* Reads "[+-]? digits" behind the "e"; saturates far beyond what any text could balance by its length. */
+/* Reads "[+-]? digits" after the "e"; saturates beyond any exponent that a text's length can offset. */
 static const char *scan_exponent(const char *at, const char *end, int64_t *exponent) {
   bool negative = at < end && *at == '-';
   if (at < end && (*at == '-' || *at == '+')) at++;
@@ -177,7 +178,7 @@ sbfi_number_status sbfi_scan_f32(const char *text, size_t length, float *value, 
   digit_run run = {.negative = at < end && *at == '-'};
   if (at < end && (*at == '-' || *at == '+')) at++;
   run.first = at;
-  uint64_t digits = 0; /* wraps where there are more than 19; then they are read again */
+  uint64_t digits = 0; /* wraps after 19 digits; then they are read again */
   int64_t count, fraction = 0;
   for (; at < end && is_digit(*at); at++) digits = digits * 10 + (uint64_t)(*at - '0');
   count = at - run.first;
@@ -205,7 +206,7 @@ sbfi_number_status sbfi_scan_f32(const char *text, size_t length, float *value, 
   return SBFI_NUMBER_READ;
 }
 
-/* Reads an integer as sign and size, the size saturated above 2^32. */
+/* Reads an integer as sign and magnitude; the magnitude saturates above 2^32. */
 static bool scan_integer(const char *text, size_t length, bool *negative, uint64_t *size, size_t *used) {
   const char *at = text, *end = text + length;
   *negative = at < end && *at == '-';

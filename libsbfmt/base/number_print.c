@@ -1,7 +1,6 @@
-/* float32 to the shortest digits that read back to it, after
- *   R. Giulietti, "The Schubfach way to render doubles", 2020 (its float32 form: 64-bit powers, 96-bit
- * products), and compared with std::to_chars for each of the 2^31 positive values. The choice of layout, and
- * whole numbers written exactly, are described in the header. */
+/* float32 to the shortest digits that read back to it, after R. Giulietti, "The Schubfach way to render
+ * doubles", 2020 (its float32 form: 64-bit powers, 96-bit products), compared with std::to_chars for each of
+ * the 2^31 positive values. The header describes the choice of layout and the exact form of whole numbers. */
 #include "base/number.h"
 
 #include <string.h>
@@ -14,21 +13,21 @@ typedef struct decimal {
   int exponent;
 } decimal;
 
-/* factor * significand / 2^64 rounded to odd: the last bit is set where something was cut off, which keeps
- * comparisons with whole numbers right. */
+/* factor * significand / 2^64 rounded to odd: the last bit is set if something was cut off, so comparisons
+ * with whole numbers stay correct. */
 static uint32_t multiply_round_to_odd(uint64_t significand, uint32_t factor) {
   uint64_t low = (uint64_t)(uint32_t)significand * factor;
   uint64_t high = (significand >> 32) * factor + (low >> 32);
   return (uint32_t)(high >> 32) | ((uint32_t)high > 1);
 }
 
-/* The shortest decimal inside the rounding interval of c * 2^q, and of those the nearest to it. */
+/* The shortest decimal inside the rounding interval of c * 2^q; of several, the nearest. */
 static decimal shortest_decimal(uint32_t c, int q, bool irregular) {
-  /* The interval's ends count as inside where ties go to an even c. */
+  /* The ends of the interval are inside if ties go to an even c. */
   uint32_t open = c & 1;
-  /* Below a power of two the floats lie twice as dense: the interval is shorter on that side. */
+  /* Below a power of two floats are twice as dense, so the interval is shorter on that side. */
   uint32_t lower = 4 * c - (irregular ? 1 : 2), upper = 4 * c + 2;
-  /* floor(log10(2^q)), of 3/4 of it where irregular: 10^k is as long as the interval or up to ten times
+  /* floor(log10(2^q)), or of 3/4 of it if irregular: 10^k is as long as the interval or up to ten times
    * shorter. */
   int k = (q * 1262611 - (irregular ? 524031 : 0)) >> 22;
   int h = q + sbfi_log2_of_power(-k) + 1;
@@ -39,7 +38,7 @@ static decimal shortest_decimal(uint32_t c, int q, bool irregular) {
   uint32_t below = value4 / 4, digits;
   uint32_t below10 = below / 10 * 10, above10 = below10 + 10;
   bool below10_in = below >= 10 && lower4 <= 4 * below10, above10_in = below >= 10 && 4 * above10 <= upper4;
-  if (below10_in != above10_in) { /* both cannot be: the interval is shorter than 10 */
+  if (below10_in != above10_in) { /* not both: the interval is shorter than 10 */
     digits = below10_in ? below10 : above10;
   } else {
     bool below_in = lower4 <= 4 * below, above_in = 4 * (below + 1) <= upper4;
@@ -51,7 +50,7 @@ static decimal shortest_decimal(uint32_t c, int q, bool irregular) {
   return (decimal){digits, k};
 }
 
-/* Writes the decimal digits of `value` so that they end before `end`; where they begin. */
+/* Writes the decimal digits of `value` so that they end before `end`; returns their start. */
 static char *digits_before(char *end, uint64_t value) {
   do {
     *--end = (char)('0' + value % 10);
@@ -109,7 +108,7 @@ size_t sbfi_print_f32(char *to, float value) {
     memcpy(at, digits, (size_t)count);
     return (size_t)(at + count - to);
   }
-  if (shortest.exponent < 0) { /* the point stands among the digits */
+  if (shortest.exponent < 0) { /* the point is among the digits */
     memcpy(at, digits, (size_t)exponent + 1);
     at += exponent + 1;
     *at++ = '.';
@@ -118,7 +117,7 @@ size_t sbfi_print_f32(char *to, float value) {
   }
   if (exponent + 1 > length_with_exponent)
     return (size_t)(write_with_exponent(at, digits, count, exponent) - to);
-  /* At most 14 places, so the whole number fits 64 bits. */
+  /* At most 14 digits after the point, so the whole number fits 64 bits. */
   return (size_t)(at - to) + digits_to(at, q < 0 ? c >> -q : (uint64_t)c << q);
 }
 

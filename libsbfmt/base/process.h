@@ -1,25 +1,25 @@
-/* Running a program as a child under limits, its output captured: for work that may crash, hang or eat
- * memory. One implementation a system (process_posix.c). */
+/* Runs a program as a child process with limits and captures its output, for work that may crash, hang or
+ * exhaust memory. One implementation per system (process_posix.c). */
 #ifndef SBFI_PROCESS_H
 #define SBFI_PROCESS_H
 
 #include "base/diagnostic.h"
 #include "base/memory.h"
 
-/* Zero means no limit. */
+/* 0 means no limit. */
 typedef struct sbfi_process_limits {
   uint32_t wall_ms;      /* time from the start to the end of the program */
   uint32_t cpu_s;        /* processor time */
   uint64_t memory_bytes; /* address space; not applied in a build with the address sanitizer, which needs
                             terabytes */
-  size_t output_bytes;   /* of standard output, all of which is kept */
+  size_t output_bytes;   /* of standard output, which is kept completely */
 } sbfi_process_limits;
 
 typedef enum sbfi_process_end {
-  SBFI_PROCESS_EXITED = 0,      /* by itself: see exit_status */
-  SBFI_PROCESS_KILLED,          /* by a signal of its own or of others: see signal */
-  SBFI_PROCESS_TIMED_OUT,       /* by us, at the limit of wall time */
-  SBFI_PROCESS_CPU_LIMIT,       /* by the system, at the limit of processor time */
+  SBFI_PROCESS_EXITED = 0,      /* normally: see exit_status */
+  SBFI_PROCESS_KILLED,          /* by a signal, its own or another's: see signal */
+  SBFI_PROCESS_TIMED_OUT,       /* by us, at the wall time limit */
+  SBFI_PROCESS_CPU_LIMIT,       /* by the system, at the processor time limit */
   SBFI_PROCESS_OUTPUT_TOO_LARGE /* by us, when it wrote more than the limit */
 } sbfi_process_end;
 
@@ -27,25 +27,25 @@ enum { SBFI_PROCESS_ERROR_TAIL = 512 };
 
 typedef struct sbfi_process_result {
   sbfi_process_end end;
-  int exit_status; /* where it exited, else 0 */
-  int signal;      /* where a signal ended it, ours included, else 0 */
-  uint8_t *output; /* what it wrote to standard output; NULL where output_size is 0 */
+  int exit_status; /* if it exited, else 0 */
+  int signal;      /* if a signal (including ours) ended it, else 0 */
+  uint8_t *output; /* its standard output; NULL if output_size is 0 */
   size_t output_size, output_capacity;
-  char error_tail[SBFI_PROCESS_ERROR_TAIL]; /* the last of its standard error: UTF-8, NUL-terminated */
+  char error_tail[SBFI_PROCESS_ERROR_TAIL]; /* the last part of its standard error: UTF-8, NUL-terminated */
   sbf_allocator allocator;
 } sbfi_process_result;
 
-/* Runs arguments[0], a path with a slash in it (PATH is not searched, no shell), with `arguments`, ended by
- * NULL, and waits for its end. Its standard input is empty; it inherits no other descriptor, and blocks or
- * ignores no signal; it leads a process group of its own, whatever is left of which is killed when it ends.
- * SBF_OK means that the program ran, however it ended; then free the result with sbfi_process_result_free.
- * IO_CANNOT_RUN: it could not be started, or its end not learned (where the host ignores SIGCHLD or waits for
- * any child); OUT_OF_MEMORY: its output could not be kept. Thread safe. */
+/* Runs arguments[0], a path with a slash (no PATH search, no shell), with `arguments`, terminated by NULL,
+ * and waits for its end. Its standard input is empty. It inherits no other descriptor and no blocked or
+ * ignored signals. It leads its own process group, which is killed when it ends. SBF_OK means that the
+ * program ran, however it ended; then free the result with sbfi_process_result_free. IO_CANNOT_RUN: the
+ * program could not be started, or its status not read (if the host ignores SIGCHLD or waits for any child).
+ * OUT_OF_MEMORY: its output could not be kept. Thread safe. */
 sbf_status sbfi_process_run(const char *const *arguments, const sbfi_process_limits *limits,
     const sbf_allocator *allocator, sbfi_process_result *result, sbf_diagnostic *error);
 void sbfi_process_result_free(sbfi_process_result *result);
 
-/* One line that says how it ended, as in "ended with status 1". */
+/* One line about its end, such as "ended with status 1". */
 void sbfi_process_describe(const sbfi_process_result *result, char *to, size_t size);
 
 #endif

@@ -1,4 +1,4 @@
-/* A child process with limits: forked, fed and read through pipes, ended when its time is up. */
+/* Child process with limits: fork, pipes, and a kill when time is up. */
 #define _DEFAULT_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #include "base/process.h"
@@ -34,8 +34,8 @@
 
 enum {
   READ_BYTES = 1 << 16,
-  POLL_MS = 50,      /* how often to look for an end that no pipe shows */
-  FIRST_POLL_MS = 2, /* the same once both pipes are closed: the end is near */
+  POLL_MS = 50,      /* interval for detecting an end that no pipe shows */
+  FIRST_POLL_MS = 2, /* the same once both pipes are closed and the end is near */
   LAST_DESCRIPTOR = 65536
 };
 
@@ -53,7 +53,9 @@ static void close_pipe(pipe_ends *p) {
   close_end(&p->write);
 }
 
-/* Moves a descriptor above the standard three, which a host may have closed: the child puts its own there. */
+/* Moves a descriptor above the standard three. A host may have closed those, and the child uses their
+ * numbers.
+ */
 static bool lift(int *end) {
   if (*end > 2) return true;
   int lifted = fcntl(*end, F_DUPFD_CLOEXEC, 3);
@@ -66,7 +68,7 @@ static bool lift(int *end) {
 static bool open_pipe(pipe_ends *p) {
   int ends[2];
 #if defined(__linux__) && defined(SYS_pipe2)
-  /* In one step, or a program that another thread starts in between would inherit the ends. */
+  /* Atomic: otherwise a program that another thread starts meanwhile would inherit the ends. */
   if (syscall(SYS_pipe2, ends, O_CLOEXEC) != 0) return false;
 #else
   if (pipe(ends) != 0) return false;
@@ -83,7 +85,7 @@ static int64_t now_ms(void) {
   return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
 }
 
-/* From here to the exec only what is safe after a fork in a program with threads. */
+/* From here to the exec: only calls that are safe after a fork in a program with threads. */
 
 static void limit_resource(int resource, uint64_t soft, uint64_t hard) {
   struct rlimit limit;
@@ -95,7 +97,7 @@ static void limit_resource(int resource, uint64_t soft, uint64_t hard) {
 
 static void close_others_on_exec(void) {
 #if defined(__linux__) && defined(SYS_close_range)
-  enum { SET_CLOSE_ON_EXEC = 4 }; /* CLOSE_RANGE_CLOEXEC, from Linux 5.11 on */
+  enum { SET_CLOSE_ON_EXEC = 4 }; /* CLOSE_RANGE_CLOEXEC, since Linux 5.11 */
   if (syscall(SYS_close_range, 3u, ~0u, (unsigned)SET_CLOSE_ON_EXEC) == 0) return;
 #endif
   struct rlimit limit;
@@ -108,7 +110,7 @@ static void default_signals(void) {
   struct sigaction standard;
   memset(&standard, 0, sizeof standard);
   standard.sa_handler = SIG_DFL;
-  for (int i = 1; i < 65; i++) sigaction(i, &standard, NULL); /* the few that cannot be set refuse */
+  for (int i = 1; i < 65; i++) sigaction(i, &standard, NULL); /* fails for the few that cannot be set */
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, NULL);
@@ -118,14 +120,14 @@ _Noreturn static void become(const char *const *arguments, const sbfi_process_li
     int nothing, int output, int errors, int report) {
   setpgid(0, 0);
 #ifdef __linux__
-  /* A host that is killed takes the child with it. */
+  /* Kills the child if the host is killed. */
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
 #else
   (void)parent;
 #endif
   limit_resource(RLIMIT_CORE, 0, 0);
-  /* A second after the signal that says so, the system kills. */
+  /* The system kills it one second after the signal. */
   if (limits->cpu_s) limit_resource(RLIMIT_CPU, limits->cpu_s, (uint64_t)limits->cpu_s + 1);
 #if !defined(WITH_ADDRESS_SANITIZER) && defined(RLIMIT_AS)
   if (limits->memory_bytes) limit_resource(RLIMIT_AS, limits->memory_bytes, limits->memory_bytes);
@@ -140,14 +142,14 @@ _Noreturn static void become(const char *const *arguments, const sbfi_process_li
   _exit(put == sizeof number ? 127 : 126);
 }
 
-/* All the parent holds while the child runs. */
+/* The parent's state while the child runs. */
 typedef struct child {
   pid_t id;
-  int output, errors; /* our ends of its pipes, -1 once they are at their end */
+  int output, errors; /* our ends of its pipes; -1 after their end */
   sbfi_text kept;
-  char tail[4096 + SBFI_PROCESS_ERROR_TAIL]; /* the last of its errors, and room to read more */
+  char tail[4096 + SBFI_PROCESS_ERROR_TAIL]; /* the end of its standard error, and space to read more */
   size_t tail_size;
-  bool lost; /* someone else took its end: its number may belong to another program by now */
+  bool lost; /* someone else waited for it: its process id may belong to another program */
 } child;
 
 static bool dont_block(int descriptor) {
@@ -155,7 +157,7 @@ static bool dont_block(int descriptor) {
   return flags >= 0 && fcntl(descriptor, F_SETFL, flags | O_NONBLOCK) == 0;
 }
 
-/* Starts the program; 0, or the number of the error, the child's own included. */
+/* Starts the program; 0, or the error number, also of the child before the exec. */
 static int start(child *c, const char *const *arguments, const sbfi_process_limits *limits) {
   pipe_ends output = {-1, -1}, errors = {-1, -1}, report = {-1, -1};
   int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC), number = 0;
@@ -163,7 +165,7 @@ static int start(child *c, const char *const *arguments, const sbfi_process_limi
       !dont_block(output.read) || !dont_block(errors.read)) {
     number = errno;
   } else {
-    /* No handler of the host may run in the child. */
+    /* The child must not run any handler of the host. */
     sigset_t all, before;
     pid_t parent = getpid();
     sigfillset(&all);
@@ -178,7 +180,7 @@ static int start(child *c, const char *const *arguments, const sbfi_process_limi
   close_end(&errors.write);
   close_end(&report.write);
   if (number == 0) {
-    /* The report's pipe closes with the exec; it carries a number only where that failed. */
+    /* The exec closes the report pipe; it has an error number only if the exec failed. */
     ssize_t got;
     do got = read(report.read, &number, sizeof number);
     while (got < 0 && errno == EINTR);
@@ -196,7 +198,7 @@ static int start(child *c, const char *const *arguments, const sbfi_process_limi
   return number;
 }
 
-/* Reads what is there; closes at the end. */
+/* Reads what is available; closes at the end. */
 static ssize_t read_some(int *end, void *to, size_t size) {
   ssize_t got;
   do got = read(*end, to, size);
@@ -205,7 +207,7 @@ static ssize_t read_some(int *end, void *to, size_t size) {
   return got > 0 ? got : 0;
 }
 
-/* Returns whether there was something; `kept.failed` tells of missing memory. */
+/* Returns whether there was data; `kept.failed` is set if memory runs out. */
 static bool read_output(child *c) {
   char *destination = c->output >= 0 ? sbfi_text_reserve(&c->kept, READ_BYTES) : NULL;
   size_t got = destination ? (size_t)read_some(&c->output, destination, READ_BYTES) : 0;
@@ -224,8 +226,7 @@ static bool read_errors(child *c) {
   return got > 0;
 }
 
-/* Whether the program has ended; it stays a zombie, so that its number (and its group's) is not used again.
- */
+/* Whether the program has ended. It stays a zombie, so that its id (and its group's) is not reused. */
 static bool has_ended(child *c) {
   siginfo_t info;
   memset(&info, 0, sizeof info);
@@ -234,7 +235,7 @@ static bool has_ended(child *c) {
   return c->lost || (found == 0 && info.si_pid == c->id);
 }
 
-/* Ends what is left of the program and of what it started. */
+/* Kills the rest of the program and its children. */
 static void kill_group(const child *c) {
   if (!c->lost) kill(-c->id, SIGKILL);
 }
@@ -248,7 +249,7 @@ static void wait_for_more(const child *c, int64_t left_ms) {
   poll(ends, count, (int)(left_ms < poll_ms ? left_ms : poll_ms));
 }
 
-/* Serves the pipes until the program ends or has to be ended. */
+/* Reads the pipes until the program ends or must be killed. */
 static sbfi_process_end watch(child *c, const sbfi_process_limits *limits) {
   int64_t deadline = limits->wall_ms ? now_ms() + limits->wall_ms : INT64_MAX;
   bool ended = false;
@@ -264,7 +265,7 @@ static sbfi_process_end watch(child *c, const sbfi_process_limits *limits) {
     int64_t left_ms = deadline - now_ms();
     if (left_ms <= 0) return ended ? SBFI_PROCESS_EXITED : SBFI_PROCESS_TIMED_OUT;
     if (!ended && has_ended(c)) {
-      /* What it started and left behind might hold the pipes open, and write to them, for ever. */
+      /* Its remaining children could otherwise keep the pipes open, and write to them, forever. */
       kill_group(c);
       ended = true;
     } else if (!more) {
@@ -273,10 +274,10 @@ static sbfi_process_end watch(child *c, const sbfi_process_limits *limits) {
   }
 }
 
-/* The tail as UTF-8 text: a character cut off at its beginning goes, what is no character becomes "?". */
+/* The tail as UTF-8 text: drops a truncated first character, replaces invalid bytes by "?". */
 static void copy_tail(const child *c, char *to) {
   size_t from = 0, length = c->tail_size, size = 0;
-  if (length == SBFI_PROCESS_ERROR_TAIL) /* one byte for the NUL, three of a broken character at most */
+  if (length == SBFI_PROCESS_ERROR_TAIL) /* one byte for the NUL, at most three of a broken character */
     for (from = 1; from < 4 && ((unsigned char)c->tail[from] & 0xC0) == 0x80;) from++;
   while (from < length) {
     size_t good = sbfi_utf8_check(c->tail + from, length - from);

@@ -1,4 +1,4 @@
-/* SHA-256 as FIPS 180-4 defines it. */
+/* SHA-256 as defined by FIPS 180-4. */
 #include "base/sha256.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ static const uint32_t constants[64] = {0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b
     0x5b9cca4f, 0x682e6ff3, 0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb,
     0xbef9a3f7, 0xc67178f2};
 
-/* The same of the square roots of the first 8. */
+/* The same for the square roots of the first 8 primes. */
 static const uint32_t initial[8] = {
     0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
 
@@ -22,7 +22,7 @@ static uint32_t rotate(uint32_t x, int right) {
   return x >> right | x << (32 - right);
 }
 
-/* One round. Instead of moving all eight letters one place on, the next call names them so. */
+/* One round. Instead of shifting all eight variables, the next call permutes their names. */
 #define ROUND(a, b, c, d, e, f, g, h, i)                                                                     \
   do {                                                                                                       \
     h += (rotate(e, 6) ^ rotate(e, 11) ^ rotate(e, 25)) + ((e & f) ^ (~e & g)) + constants[i] + schedule[i]; \

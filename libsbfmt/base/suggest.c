@@ -10,8 +10,8 @@ static size_t min(size_t a, size_t b, size_t c) {
   return min_of_two < c ? min_of_two : c;
 }
 
-/* Insertions, removals, replacements and swaps of neighbours that lead from one word to the other: the
- * optimal string alignment distance. */
+/* Number of insertions, deletions, replacements and swaps of neighbours between two words: the optimal string
+ * alignment distance. */
 static size_t distance(sbfi_span a, sbfi_span b) {
   size_t rows[3][LONGEST + 1];
   for (size_t j = 0; j <= b.length; j++) rows[0][j] = j;

@@ -27,7 +27,7 @@ sbfi_span sbfi_span_trim(sbfi_span span) {
   return span;
 }
 
-/* Splits the first `length` characters off the span. */
+/* Splits the first `length` characters off the front of the span. */
 static sbfi_span take(sbfi_span *rest, size_t length) {
   sbfi_span taken = {rest->at, length};
   if (length) *rest = (sbfi_span){rest->at + length, rest->length - length};
@@ -55,7 +55,7 @@ bool sbfi_span_next_line(sbfi_span *rest, sbfi_span *line) {
   return true;
 }
 
-/* Length of the well-formed character at `at`, 0 where there is none (Unicode 15.0, table 3-7). */
+/* Length of the well-formed character at `at`; 0 if none (Unicode 15.0, table 3-7). */
 static size_t character_length(const unsigned char *at, size_t left) {
   unsigned char first = at[0], min = 0x80, max = 0xBF;
   size_t length;

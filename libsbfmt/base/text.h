@@ -1,10 +1,10 @@
-/* Text: spans, UTF-8, and the growing buffer that writers fill. Bytes only, no locale. */
+/* Text: spans, UTF-8, and a growing buffer for writers. Bytes only, no locale. */
 #ifndef SBFI_TEXT_H
 #define SBFI_TEXT_H
 
 #include "base/memory.h"
 
-/* Characters that someone else owns; not NUL-terminated. `at` may be NULL where length is 0. */
+/* Characters owned by someone else; not NUL-terminated. `at` may be NULL if length is 0. */
 typedef struct sbfi_span {
   const char *at;
   size_t length;
@@ -15,29 +15,29 @@ bool sbfi_span_equal(sbfi_span a, sbfi_span b);
 bool sbfi_span_is(sbfi_span span, const char *text);
 bool sbfi_span_begins(sbfi_span span, const char *prefix);
 
-/* White space as XML has it: space, tab, line feed, carriage return. */
+/* White space of XML: space, tab, line feed, carriage return. */
 static inline bool sbfi_is_space(char c) {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r';
 }
 sbfi_span sbfi_span_trim(sbfi_span span);
 
-/* Takes the next word between white space off the front of `*rest`; false at the end. */
+/* Splits the next word off the front of `*rest`; false at the end. */
 bool sbfi_span_next_word(sbfi_span *rest, sbfi_span *word);
-/* Takes the next line off the front of `*rest`, without its LF, CRLF or CR; false at the end. */
+/* Splits the next line off the front of `*rest`, without its LF, CRLF or CR; false at the end. */
 bool sbfi_span_next_line(sbfi_span *rest, sbfi_span *line);
 
-/* Offset of the first byte that is not part of well-formed UTF-8 (no overlong form, no surrogate, nothing
- * above U+10FFFF), or `length` where all of it is. */
+/* Offset of the first byte that is not well-formed UTF-8 (overlong form, surrogate, above U+10FFFF), or
+ * `length` if none. */
 size_t sbfi_utf8_check(const char *text, size_t length);
-/* The longest beginning of well-formed text, `limit` bytes at most, that ends between two characters. */
+/* Longest prefix of well-formed text, at most `limit` bytes, that ends between two characters. */
 size_t sbfi_utf8_cut(const char *text, size_t length, size_t limit);
 
-/* Whether a path is absolute, climbs above the folder that it starts in, or has backslashes: a reader must
- * refuse to open it. Looks at the letters alone. */
+/* Whether a path is absolute, climbs above its starting folder, or has backslashes: a reader must not open
+ * it. Checks only the characters. */
 bool sbfi_path_leaves_folder(const char *path);
 
-/* A growing buffer. When memory runs out `failed` is set, what was there stays, and every further append does
- * nothing: a writer may append freely and look once at the end. Not thread safe. */
+/* A growing buffer. If memory runs out, `failed` is set, the content stays, and further appends do nothing: a
+ * writer may append freely and check once at the end. Not thread safe. */
 typedef struct sbfi_text {
   sbf_allocator allocator;
   char *at; /* not NUL-terminated */
@@ -47,9 +47,9 @@ typedef struct sbfi_text {
 
 void sbfi_text_init(sbfi_text *text, const sbf_allocator *allocator); /* NULL: malloc's */
 void sbfi_text_free(sbfi_text *text);                                 /* back to the state after init */
-void sbfi_text_clear(sbfi_text *text);                                /* empty, the memory kept */
+void sbfi_text_clear(sbfi_text *text);                                /* empty, keeps the memory */
 
-/* Makes room for `more` bytes and returns where they go, or NULL; the caller then adds to `length`. */
+/* Reserves `more` bytes and returns a pointer to them, or NULL; the caller then adds to `length`. */
 char *sbfi_text_reserve(sbfi_text *text, size_t more);
 
 /* All return false once the buffer has failed. */
@@ -60,8 +60,8 @@ bool sbfi_text_repeat(sbfi_text *text, char c, size_t count);
 bool sbfi_text_i32(sbfi_text *text, int32_t value);
 bool sbfi_text_u32(sbfi_text *text, uint32_t value);
 bool sbfi_text_u64(sbfi_text *text, uint64_t value);
-/* The canonical form of number.h. False as well, with nothing appended and `failed` unchanged, for an
- * infinity or a NaN. */
+/* In the canonical form of number.h. For an infinity or a NaN it also returns false, appends nothing and
+ * leaves `failed` unchanged. */
 bool sbfi_text_f32(sbfi_text *text, float value);
 
 #endif

@@ -1,11 +1,11 @@
-/* Sets of numbers that grow together: each number's parent, itself where it is the root of its set, which is
- * the lowest of it, whatever order they are joined in. By path halving. */
+/* Union-find with path halving: each number's parent, or itself if it is the root. The root of a set is its
+ * lowest number, whatever the order of the unions. */
 #ifndef SBFI_UNION_FIND_H
 #define SBFI_UNION_FIND_H
 
 #include <stdint.h>
 
-/* Each number is a set of its own. */
+/* Puts each number into its own set. */
 static inline void sbfi_sets_begin(uint32_t *parents, uint32_t count) {
   for (uint32_t i = 0; i < count; i++) parents[i] = i;
 }

@@ -1,11 +1,11 @@
-/* Files that have no name until they are whole, so that the system drops them with the process that writes
- * them. */
+/* Files without a name until they are complete; the system removes them if the process ends before. */
 #ifndef SBFI_UNNAMED_FILE_H
 #define SBFI_UNNAMED_FILE_H
 
-/* A file in the folder, to write to; -1 where the system, or that folder's file system, has none such. */
+/* Opens such a file in the folder for writing; -1 if the system, or the folder's file system, does not
+ * support it. */
 int sbfi_unnamed_file_open(const char *folder);
-/* Gives it a name that is not taken, in the same folder; 0, or -1 and errno. */
+/* Gives the file an unused name in the same folder; 0, or -1 and errno. */
 int sbfi_unnamed_file_name(int handle, const char *path);
 
 #endif

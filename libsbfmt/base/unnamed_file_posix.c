@@ -1,4 +1,4 @@
-/* Linux has files without a name; elsewhere there are none. */
+/* Unnamed files of Linux; other systems have none. */
 #define _GNU_SOURCE
 #include "base/unnamed_file.h"
 
@@ -20,7 +20,7 @@ int sbfi_unnamed_file_open(const char *folder) {
   do handle = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   while (handle < 0 && errno == EINTR);
   if (handle < 0) return -1;
-  /* By this path alone it gets its name later, and /proc is not there everywhere. */
+  /* The file can be named only through this path, and not every system has /proc. */
   char path[HANDLE_PATH_BYTES];
   path_of(handle, path);
   if (access(path, F_OK) == 0) return handle;

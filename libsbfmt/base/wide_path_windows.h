@@ -1,4 +1,4 @@
-/* Paths are UTF-8 everywhere but in this system's calls. */
+/* Converts UTF-8 paths for Windows calls. */
 #ifndef SBFI_WIDE_PATH_WINDOWS_H
 #define SBFI_WIDE_PATH_WINDOWS_H
 
@@ -9,7 +9,7 @@
 
 enum { SBFI_WIDE_PATH = 4096 };
 
-/* False where it is no UTF-8 or too long. */
+/* False if the path is not UTF-8 or too long. */
 static inline bool sbfi_wide_path(const char *path, wchar_t to[SBFI_WIDE_PATH]) {
   return MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, to, SBFI_WIDE_PATH) > 0;
 }
