@@ -30,7 +30,7 @@ double sbfi_bearing_modulus(const sbf_attributes *attributes, const sbf_vec3_lis
   return sbfi_modulus_to_bear(modulus, (double)attributes->density, height, MAX_STRAIN);
 }
 
-/* ---- What stands on less than it carries ---- */
+/* ---- Bodies on thin supports ---- */
 
 /* Heights of the cross-sections. Those within a twelfth of the ends are skipped, because rounded ends have
  * tiny cross-sections. */

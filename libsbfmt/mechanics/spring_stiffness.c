@@ -98,7 +98,7 @@ static void raise(anchored *at) {
   if (matrix[8] < min) min = matrix[8];
   double wanted = min_fraction / SBF_STIFFNESS_ANCHOR, raised = 1; /* for a trace of 1 */
   if (min < wanted) raised = min > wanted / MAX_RAISED ? wanted / min : MAX_RAISED;
-  if (min < 1e-6) raised = 1; /* no spring has that direction: none can help */
+  if (min < 1e-6) raised = 1; /* no spring has that direction: scaling cannot help */
   at->count *= raised;
   at->squares *= raised;
 }

@@ -94,7 +94,7 @@ bool sbfi_lattice_hold_pieces(const sbf_level *level, const double *depths2, con
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)
     for (int k = 1; k < 4; k++)
       sbfi_sets_join(parents, level->lattice.tetrahedra.at[t].at[0], level->lattice.tetrahedra.at[t].at[k]);
-  /* Points sorted by piece. */
+  /* Groups the points by piece. */
   for (uint32_t i = 0; i < points; i++) ends[sbfi_set_root(parents, i)]++;
   for (uint32_t i = 0, before = 0; i < points; i++) {
     uint32_t size = ends[i];

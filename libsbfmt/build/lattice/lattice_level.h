@@ -15,8 +15,8 @@ typedef struct sbfi_lattice_recipe {
   uint32_t elements; /* approximate number of tetrahedra; 0: 2000, or more if much of the body is thin */
   uint32_t max;      /* maximum of the automatic number; 0: SBFI_LATTICE_THIN_ELEMENTS */
   int32_t derivation;
-  double tolerance; /* factor less 1 by which their number may be off; 0: SBFI_LATTICE_TOLERANCE, or
-                        a tenth where `max` leaves fewer than are usual */
+  double tolerance; /* relative tolerance of their number; 0: SBFI_LATTICE_TOLERANCE, or a tenth if `max`
+                     * reduces the usual number */
 } sbfi_lattice_recipe;
 
 /* Counts of one body. */
@@ -27,11 +27,11 @@ typedef struct sbfi_lattice_counts {
   sbfi_thinness thinness; /* relative to one cell, which contains two elements */
 } sbfi_lattice_counts;
 
-/* Fills `*level` for a body that has polygons: the points of the lattice, none of which are the body's own;
- * tetrahedra, whose rest shape is the points' places and which have the body's modulus, and its density,
- * scaled by one factor so that the mass is that of the volume inside a closed surface; pins as
- * lattice_pins.h says. Masses are left to the rule of sbf_level_masses. A lattice without tetrahedra leaves
- * the level without points. Lists are memory of `asset`. */
+/* Fills `*level` for a body that has polygons. Points: those of the lattice; none is the body's own.
+ * Tetrahedra: their rest shape is the points' positions; they have the body's modulus, and its density,
+ * scaled by one factor so that the mass is that of the volume inside a closed surface. Pins: see
+ * lattice_pins.h. Masses follow from sbf_level_masses. If the lattice has no tetrahedra, the level has no
+ * points. `asset` owns the lists. */
 sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_body *body,
     const sbfi_lattice_recipe *recipe, sbf_asset *asset, sbfi_lattice_counts *counts, sbfi_progress progress,
     sbfi_arena *scratch);

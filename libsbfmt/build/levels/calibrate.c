@@ -400,8 +400,8 @@ static double farthest(const double *a, double a_scale, const double *b, double 
   return sqrt(max);
 }
 
-/* Compares under gravity along one of the axes, or under bending: with large strains, or from the small
- * loads if large strains were not requested or one of the two does not converge. */
+/* Compares under gravity along one of the axes, or under bending: with large strains, or with the small loads
+ * if large strains were not requested or one of the two does not converge. */
 static bool compare_under(work *w, uint32_t l, bool gives, double factor, double *give, double *off) {
   uint32_t points = w->body->surface.positions.count;
   const double *fall = w->r->falls[l];

@@ -35,21 +35,22 @@ typedef struct sbfi_interior_map {
   uint32_t *polygon_points; /* (polygons) indices in the level, or SBFI_NO_INDEX; NULL: none */
 } sbfi_interior_map;
 
-/* Fills `*level` for a body that has surface points; lists are memory of `asset`, the map's of `scratch`.
+/* Fills `*level` for a body that has surface points; its lists are owned by `asset`, those of the map by
+ * `scratch`.
  *
- * Points: the surface's, the author's interior ones, the made ones. Springs: structural, shear, flexion,
- * internal, each set in the order of springs.h, less those that join two held points, which its inert_count
- * counts, and those between two points in the same place. Pins: the body's own, its attachments', and
- * "interior", which binds the made points to the body's bone (see level_pins.h). A body without a bone keeps
- * them free and gives them masses: of each polygon's pyramid from the centre, a quarter to its point, a fifth
- * to the centre and the rest to its corners, as its tetrahedra would.
+ * Points: the surface's, the author's interior points, the created ones. Springs: structural, shear, flexion,
+ * internal, each set in the order of springs.h, without springs between two pinned points, which its
+ * inert_count counts, and without springs of zero length. Pins: the body's own, its attachments', and
+ * "interior", which pins the created points to the body's bone (see level_pins.h). Without a bone they stay
+ * free and get masses: of each polygon's pyramid from the centre, a quarter goes to its point, a fifth to the
+ * centre and the rest to its corners, as for its tetrahedra.
  *
- * A lattice's nodes have half a cube of its grid each, and together with the free surface points all of the
- * mass; all springs of a level with a lattice, and of a brute one, are one network in stiffness.
+ * A lattice's nodes have the mass of half a cube of its grid each, and all of the mass together with the free
+ * surface points. All springs of a level with a lattice, and of a brute one, get their stiffness as one
+ * network.
  *
- * Stiffness in N/m by sbfmt/mechanics.h, stated for each spring; damping too where a weight map scales the
- * body's stiffness_damping. False where memory runs out or the recipe's
- * progress ends it. */
+ * Stiffness in N/m by sbfmt/mechanics.h, stated for each spring; damping too if a weight map scales the
+ * body's stiffness_damping. False if memory runs out or the recipe's progress cancels. */
 bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const sbfi_spring_recipe *recipe,
     sbf_asset *asset, sbfi_interior_map *map, sbfi_spring_counts *counts, sbfi_arena *scratch);
 

@@ -11,18 +11,17 @@ typedef struct sbfi_spring_list {
   uint32_t count;
 } sbfi_spring_list;
 
-/* Springs over the surface, no pair twice in any of the three:
+/* Springs over the surface, without duplicate pairs:
  *
- * - structural: the sides of the polygons, corner k to corner k + 1, as the walk over the polygons meets
- * them;
+ * - structural: the edges of the polygons, corner k to corner k + 1, in the order of a walk over the
+ * polygons;
  *
- * - shear: in the same walk, of each polygon of four and more corners, corner k to corner k + 2 (of a quad
- * both diagonals), and where a triangle's side belongs to it and one more triangle, the two corners opposite
- * that side;
+ * - shear: in the same walk, corner k to corner k + 2 of each polygon with four or more corners (both
+ * diagonals of a quad), and for an edge of exactly two triangles, the two corners opposite that edge;
  *
- * - flexion: for each point, its neighbours that lie opposite each other: no polygon at the point holds both,
- * and each is the straightest continuation of the other. Points with more than 64 neighbours, the poles of a
- * sphere, have none. */
+ * - flexion: for each point, pairs of opposite neighbours: no polygon at the point contains both, and each is
+ * the straightest continuation of the other. Points with more than 64 neighbours, such as the poles of a
+ * sphere, get none. */
 typedef struct sbfi_surface_springs {
   sbfi_spring_list structural, shear, flexion;
 } sbfi_surface_springs;
@@ -30,15 +29,16 @@ typedef struct sbfi_surface_springs {
 bool sbfi_springs_surface(sbfi_surface_springs *springs, const sbf_polygon_mesh *mesh,
     const sbfi_topology *topology, bool flexion, sbfi_arena *arena);
 
-/* The interior of the bachelor's thesis behind the reference lizard: a centre, the mean of all points of the
- * surface (in no polygon as well), and for each polygon a point, the mean of its corners and the centre.
- * Sums run in single precision in source order, as the reference's do. A triangle gets a point only in a
- * surface of which at least half the polygons are triangles: what glTF made of quads, rather than a stray
- * triangle among quads, which the reference leaves to its sides' springs.
+/* The interior used by the reference lizard, from the bachelor's thesis behind it: a centre, which is the
+ * mean of all points of the surface (even those in no polygon), and a point for each polygon, which is the
+ * mean of its corners and the centre. Sums run in single precision in source order, like those of the
+ * reference. A triangle gets a point only if at least half of the surface's polygons are triangles, as after
+ * conversion of quads by glTF. The reference leaves a stray triangle among quads to the springs along its
+ * edges.
  *
- * Springs, by places in: the surface's points, then `given` points an author placed, then these points.
- * Centre to every surface point in source order; then polygon by polygon its point to each corner and to the
- * centre. (The author's points are joined by sbfi_springs_author.) */
+ * Springs use these indices: the surface's points, then `given` points by the author, then these points.
+ * First the centre to every surface point in source order; then, polygon by polygon, its point to each corner
+ * and to the centre. (spring_level.c connects the author's points.) */
 typedef struct sbfi_centroid_interior {
   sbf_vec3 *points; /* (point_count) the centre first */
   uint32_t point_count;
@@ -49,21 +49,22 @@ typedef struct sbfi_centroid_interior {
 bool sbfi_springs_centroid(
     sbfi_centroid_interior *interior, const sbf_polygon_mesh *mesh, uint32_t given, sbfi_arena *arena);
 
-/* An interior on a body-centred grid: its nodes inside the surface, but for those next to it, and springs
- * along the grid's edges between them that the surface does not cut. Every surface point has springs to the
- * up to four nearest nodes that it sees, within five quarters of a cell, or, where there are none, two cells
- * and a half; and every node that lacks one of its fourteen neighbours to those corners of the nearest
- * triangle that it sees. So no spring leaves a concave body. Places as with the centroid interior: surface,
- * given, these. */
+/* An interior on a body-centred grid: its nodes inside the surface, except those next to it, and springs
+ * along the grid's edges between them that the surface does not cut. Every surface point has springs to up to
+ * four nearest nodes in its line of sight, within five quarters of a cell, or two and a half cells if there
+ * are none. Every node that lacks one of its fourteen neighbours has springs to the corners of the nearest
+ * triangle in its line of sight. No spring therefore leaves a concave body. Indices as for the centroid
+ * interior: surface, given, these. */
 typedef struct sbfi_lattice_interior {
-  sbf_vec3 *points; /* (point_count) first those at least half as deep below the surface as the deepest */
+  sbf_vec3
+      *points; /* (point_count) first the points at least half as deep below the surface as the deepest */
   uint32_t point_count, deep_count;
   double cell; /* m, of the grid */
   sbfi_spring_list internal;
 } sbfi_lattice_interior;
 
-/* `cell` 0: by the length of the polygons' sides, and finer where that leaves no node inside. No points where
- * none are inside, or the grid would be too fine. False where memory runs out or `progress` ends it. */
+/* `cell` 0: by the length of the polygons' edges, and finer if no node would be inside. No points if none is
+ * inside, or the grid would be too fine. False if memory runs out or `progress` cancels. */
 bool sbfi_springs_lattice(sbfi_lattice_interior *interior, const sbf_polygon_mesh *mesh, uint32_t given,
     double cell, sbfi_progress progress, sbfi_arena *arena);
 

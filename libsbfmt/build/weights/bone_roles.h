@@ -1,4 +1,4 @@
-/* Determines which bones deform the skin, and which only carry or control others. */
+/* Determines which bones deform the skin, and which only move or control other bones. */
 #ifndef SBFI_BONE_ROLES_H
 #define SBFI_BONE_ROLES_H
 

@@ -8,9 +8,9 @@
  * 0 for others. The nearest bone is found through a grid of voxels (Dionne and de Lasa 2013), so that an arm
  * beside the hip does not take the hip's bone. A bone reaches farther if the body around it is thicker, and
  * less far if the skin does not face away from it and in shells (pieces of surface that share no edge) that
- * it does not pass through. Shells before the joint of a limb follow the bone that carries the limb. Small
- * shells move with one bone. Bones on the left have no weight on the right, and conversely. Lengths are in
- * units of the longest side of the points' bounding box: the result does not depend on the unit.
+ * it does not pass through. Shells before the joint of a limb follow the bone that the limb is attached to.
+ * Small shells move with one bone. Bones on the left have no weight on the right, and conversely. Lengths are
+ * in units of the longest side of the points' bounding box: the result does not depend on the unit.
  *
  * Supports open, many-shelled, non-manifold and self-touching meshes. Equal input gives equal bits. Memory
  * grows with points, triangles and bones, not with their products; the grid has a fixed size. */
