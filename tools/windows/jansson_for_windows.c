@@ -74,7 +74,7 @@ void json_decref(json_t *value) {
   free(value);
 }
 
-/* Room for one more; false where there is no memory. */
+/* Reserves space for one more; false if memory runs out. */
 static int grow(json_t *into) {
   json_t **values = realloc(into->values, (into->count + 1) * sizeof *values);
   if (!values) return 0;
@@ -175,7 +175,7 @@ static void add_string(text *t, const char *words) {
   add(t, "\"", 1);
 }
 
-/* With a point or an exponent, lest it be read as an integer; exponents without plus or leading zeros. */
+/* With a point or an exponent, to avoid reading it as an integer; exponents without plus or leading zeros. */
 static void add_real(text *t, double value, int precision) {
   char number[64];
   snprintf(number, sizeof number - 4, "%.*g", precision ? precision : 17, value);

@@ -1,4 +1,4 @@
-/* Files that a verb writes, by calls of Windows: beside the old one, which they then replace. */
+/* Output files of commands with Windows calls: written to a temporary file that replaces the old one. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "render/fault.h"
 #include "render/output_file.h"
 
-/* Paths go to the C library as they are: what one of UTF-8 cannot name here, it says. */
+/* Passes paths to the C library unchanged; it reports UTF-8 paths that it cannot represent. */
 
 static void release(output_file *output) {
   free(output->final_path);
@@ -44,7 +44,7 @@ sbf_status output_file_begin(output_file *output, const char *path, sbf_diagnost
 }
 
 void output_file_tie(int process) {
-  (void)process; /* nothing here starts one */
+  (void)process; /* no process is started here */
 }
 
 sbf_status output_file_commit(output_file *output, sbf_diagnostic *diagnostic) {

@@ -1,4 +1,4 @@
-/* The program as far as it goes without an XML parser: what reads and moves packed bundles. */
+/* The program without an XML parser: commands that read and convert packed bundles. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@ extern const cli_verb verb_run;
 
 const cli_verb *const cli_verbs[] = {&verb_run, NULL};
 
-/* In place of the format library's: XML is told from packed by its first byte. */
+/* Replaces that of the format library. The first byte distinguishes XML from packed. */
 sbf_status sbf_load_file(
     const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
   FILE *file = fopen(path, "rb");
