@@ -39,7 +39,7 @@ static void warn_of_attachments(sbfi_build *b, uint32_t body) {
   }
 }
 
-static void take_level(sbfi_build *b, uint32_t number, const sbf_level *level, uint32_t pins) {
+static void set_only_level(sbfi_build *b, uint32_t number, const sbf_level *level, uint32_t pins) {
   b->bodies[number].levels = (sbf_level_list){level, 1};
   b->made[number] = true;
   b->report.bodies++;
@@ -63,7 +63,7 @@ static bool make_springs(sbfi_build *b, uint32_t number, sbf_build_interior inte
         &b->scratch, map->polygon_points, body->surface.polygon_sizes.count, sizeof *map->polygon_points);
     if (!map->polygon_points) return false;
   }
-  take_level(b, number, level, counts.pins);
+  set_only_level(b, number, level, counts.pins);
   b->report.interior_points += counts.interior_points;
   b->report.inert_springs += counts.inert;
   for (int kind = 0; kind < SBF_SPRING_KIND_COUNT; kind++) b->report.springs[kind] += counts.springs[kind];
@@ -95,7 +95,7 @@ static sbf_status outcome_status(sbfi_build *b, uint32_t number, sbfi_lattice_ou
   return SBF_OK;
 }
 
-static void note_calibration(sbfi_build *b, const sbfi_calibration *c) {
+static void record_calibration(sbfi_build *b, const sbfi_calibration *c) {
   sbf_build_report *r = &b->report;
   if (r->calibrated == 0 || c->min < r->min_factor) r->min_factor = c->min;
   if (c->max > r->max_factor) r->max_factor = c->max;
@@ -104,7 +104,7 @@ static void note_calibration(sbfi_build *b, const sbfi_calibration *c) {
   r->calibrated++;
 }
 
-static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
+static void record_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
   sbf_build_report *r = &b->report;
   if (r->calibrated_springs == 0 || c->min < r->min_spring_factor) r->min_spring_factor = c->min;
   if (c->max > r->max_spring_factor) r->max_spring_factor = c->max;
@@ -121,7 +121,7 @@ static sbf_status make_level_set(
   sbf_status status = outcome_status(
       b, number, sbfi_level_set_make(set, body->levels.at, of_springs ? map : NULL, &b->scratch));
   if (status != SBF_OK) return status;
-  findings->turns = set->has_reference && set->reference.statics.turns;
+  findings->can_rotate = set->has_reference && set->reference.statics.can_rotate;
   findings->poor_count = set->poor_count;
   memcpy(findings->poor, set->poor, sizeof findings->poor);
   body->levels = (sbf_level_list){set->levels, set->level_count};
@@ -129,9 +129,9 @@ static sbf_status make_level_set(
   for (uint32_t l = 0; l < set->level_count; l++) {
     if (!set->levels[l].calibration) continue;
     if (set->levels[l].model == SBF_ELASTIC_MODEL_TETRAHEDRA)
-      note_calibration(b, &set->calibrations[l]);
+      record_calibration(b, &set->calibrations[l]);
     else
-      note_spring_calibration(b, &set->calibrations[l]);
+      record_spring_calibration(b, &set->calibrations[l]);
   }
   return SBF_OK;
 }
@@ -195,7 +195,7 @@ static sbf_status make_tetrahedra(
   }
   findings->thinness = counts.thinness;
   findings->cell = (double)level->cell;
-  take_level(b, number, level, counts.pins);
+  set_only_level(b, number, level, counts.pins);
   b->report.tetrahedra += counts.tetrahedra;
   b->report.thickened_points += counts.thickened;
   add_quality(&b->report, &counts.quality);
@@ -234,7 +234,7 @@ static sbf_status make_section(sbfi_build *b, uint32_t number, sbfi_arena *scrat
   if (status != SBF_OK) return status;
   if (counts.points == 0)
     return make_springs(b, number, SBF_BUILD_INTERIOR_CENTROID, scratch) ? SBF_OK : sbfi_build_no_memory(b);
-  take_level(b, number, level, counts.pins);
+  set_only_level(b, number, level, counts.pins);
   b->report.interior_points += counts.points;
   b->report.springs[SBF_SPRING_KIND_INTERNAL] += counts.springs;
   b->report.inert_springs += counts.inert;
@@ -340,7 +340,7 @@ static void distribute_elements(sbfi_build *b) {
 }
 
 /* Number of tetrahedra that the options request for the body; 0: automatic. */
-static double elements_asked_for(const sbfi_build *b, const sbf_soft_body *body) {
+static double requested_elements(const sbfi_build *b, const sbf_soft_body *body) {
   sbf_build_interior interior = sbfi_body_interior(&b->options, body);
   bool filled = interior == SBF_BUILD_INTERIOR_AUTOMATIC || interior == SBF_BUILD_INTERIOR_LATTICE ||
                 interior >= SBF_BUILD_INTERIOR_TETRAHEDRA;
@@ -357,7 +357,7 @@ static sbf_status check_elements(sbfi_build *b) {
   double sum = 0, max = 0;
   uint32_t largest = 0;
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++) {
-    double of = elements_asked_for(b, &b->bodies[i]);
+    double of = requested_elements(b, &b->bodies[i]);
     sum += of;
     if (of > max) max = of, largest = i;
   }

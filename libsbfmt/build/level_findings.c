@@ -2,11 +2,11 @@
 
 static void report_poor_level(sbfi_build *b, uint32_t number, const sbfi_poor_level *level) {
   const char *name = b->bodies[number].name;
-  if (level->off > 0)
+  if (level->load_error > 0)
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_OFF,
         "a level of %u tetrahedra of soft body \"%s\" is off by %.0f %% of what its matter gives under one "
         "of the loads: %s, give it more elements (--elements, --cell)",
-        (unsigned)level->elements, name, 100 * level->off,
+        (unsigned)level->elements, name, 100 * level->load_error,
         level->is_kept ? "the file states each" : "it is left out");
   else
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
@@ -28,7 +28,7 @@ void sbfi_level_findings_report(sbfi_build *b, uint32_t number, const sbfi_level
         "thinnest %.4g m at a cell of %.4g m: a smaller cell (--cell, --elements) gives it more",
         (unsigned)of->thinness.thin_count, (unsigned)of->thinness.sample_count, name, of->thinness.min,
         of->cell);
-  if (of->turns)
+  if (of->can_rotate)
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
         "soft body \"%s\", or a piece of it, is held at points of one line alone and turns about them: "
         "nothing is calibrated and no error stated, pin points beside that line",

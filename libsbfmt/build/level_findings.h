@@ -10,7 +10,7 @@ typedef struct sbfi_level_findings {
   uint32_t missed_elements; /* number of tetrahedra, if none was within the requested error; 0: success */
   double cell;              /* m, of the finest lattice */
   sbfi_thinness thinness;
-  bool turns; /* it can rotate about its pinned points */
+  bool can_rotate; /* it can rotate about its pinned points */
   sbfi_poor_level poor[SBFI_MAX_LEVELS];
   uint32_t poor_count;
 } sbfi_level_findings;

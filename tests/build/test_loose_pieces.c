@@ -29,7 +29,7 @@ START_TEST(of_what_nothing_holds_the_heaviest_stays)
 {
   double loose_kg;
   sbf_spring_network n = network();
-  ck_assert(sbfi_loose_pieces_hold(&n, false, masses, &loose_kg, &arena));
+  ck_assert(sbfi_loose_pieces_pin(&n, false, masses, &loose_kg, &arena));
   check("000110", 3.5, loose_kg);
 }
 END_TEST
@@ -39,7 +39,7 @@ START_TEST(what_hangs_on_a_held_point_stays)
   double loose_kg;
   sbf_spring_network n = network();
   masses[2] = 0;
-  ck_assert(sbfi_loose_pieces_hold(&n, true, masses, &loose_kg, &arena));
+  ck_assert(sbfi_loose_pieces_pin(&n, true, masses, &loose_kg, &arena));
   check("110000", 8.5, loose_kg);
 }
 END_TEST
@@ -50,7 +50,7 @@ START_TEST(a_goal_holds_as_well)
   float anchors[6] = {0, 0, 0, 0, 10, 0};
   sbf_spring_network n = network();
   n.anchors = anchors;
-  ck_assert(sbfi_loose_pieces_hold(&n, true, masses, &loose_kg, &arena));
+  ck_assert(sbfi_loose_pieces_pin(&n, true, masses, &loose_kg, &arena));
   check("000110", 3.5, loose_kg);
 }
 END_TEST
@@ -61,7 +61,7 @@ START_TEST(tetrahedra_join_too)
   const sbf_uint4 corners[] = {{{5, 4, 2, 0}}};
   sbf_spring_network n = network();
   n.tetrahedra = corners, n.tetrahedron_count = 1;
-  ck_assert(sbfi_loose_pieces_hold(&n, false, masses, &loose_kg, &arena));
+  ck_assert(sbfi_loose_pieces_pin(&n, false, masses, &loose_kg, &arena));
   check("111111", 0, loose_kg);
 }
 END_TEST
@@ -99,7 +99,7 @@ START_TEST(memory_may_run_out)
     sbf_spring_network n = network();
     harness_memory_init(&memory, allowed);
     sbfi_arena_init(&small, &memory.allocator, 0);
-    good = sbfi_loose_pieces_hold(&n, false, masses, &loose_kg, &small);
+    good = sbfi_loose_pieces_pin(&n, false, masses, &loose_kg, &small);
     sbfi_arena_free(&small);
     ck_assert_uint_eq(memory.held_bytes, 0);
     ck_assert_uint_lt(allowed, 10);

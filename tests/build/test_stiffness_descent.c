@@ -14,7 +14,7 @@ static sbfi_arena arena;
 static sbfi_level_statics statics;
 static sbfi_linear_statics linear;
 static double *gives[SBFI_MAX_LOADS];
-static const sbfi_wanted wanted = {.gives = (const double *const *)gives};
+static const sbfi_target_displacements wanted = {.displacements = (const double *const *)gives};
 static const sbfi_factor_bounds bounds = {0.125, 16, 4, 1e-3, 25};
 
 /* A cube on a bone as centroid springs, and where they are to have its surface. */

@@ -9,11 +9,11 @@
 
 /* Relative accuracy of displacements under small loads; maximum unbalanced fraction of the load under
  * gravity. */
-static const double lean_fraction = 2e-3, fall_tolerance = 1e-4;
+static const double displacement_tolerance = 2e-3, gravity_tolerance = 1e-4;
 /* Bounds of the common factor from means over the surface. Outside them a loose crumb may have distorted
  * the mean, as in a lattice of a surface with holes, because its displacement is unbounded. A crumb of the
  * level is handled by a median point; with one in the reference nothing can be fitted. */
-static const double min_whole = 0.0625, max_whole = 4;
+static const double min_common = 0.0625, max_common = 4;
 /* Bounds of the factor from the median point; number of bisections; minimum mean square of the reference's
  * displacements for a point to count. */
 static const double min_median = 1.0 / 64, max_median = 64, still_fraction = 1e-4;
@@ -26,7 +26,7 @@ enum { ROUGH_ROUNDS = 12 };
 /* For a rough reference. */
 static const double rough_tolerance = 0.3;
 
-static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
+static double gravity_of(const sbf_asset *asset, const sbf_soft_body *body) {
   sbf_vec3 g = asset->environment.gravity;
   double size = sqrt((double)g.x * g.x + (double)g.y * g.y + (double)g.z * g.z);
   size *= fabs((double)body->attributes.gravity_scale);
@@ -43,42 +43,44 @@ static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use 
   sbfi_linear_statics linear;
   uint32_t loads = r->statics.load_count;
   size_t numbers = 3 * (size_t)r->statics.body->surface.positions.count + 1;
-  if (r->statics.turns) return SBFI_LATTICE_MADE;
+  if (r->statics.can_rotate) return SBFI_LATTICE_MADE;
   if (!sbfi_linear_statics_make_direct(&linear, &r->statics.network, scratch)) return SBFI_LATTICE_NO_MEMORY;
   for (uint32_t l = 0; l < loads; l++) {
     if (!sbfi_progress_report(use->progress, 0.5 + 0.2 * l / loads)) return SBFI_LATTICE_CANCELLED;
-    r->gives[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
-    if (!r->gives[l] || !sbfi_level_solve_linear(
-                            &r->statics, &linear, l, lean_fraction, r->gives[l], &r->frequencies[l], scratch))
+    r->displacements[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
+    if (!r->displacements[l] || !sbfi_level_solve_linear(&r->statics, &linear, l, displacement_tolerance,
+                                    r->displacements[l], &r->frequencies[l], scratch))
       return SBFI_LATTICE_NO_MEMORY;
-    r->yieldings[l] = sbfi_level_mean_displacement(&r->statics, l, r->gives[l]);
-    r->sound |= r->yieldings[l] > 0 && r->frequencies[l] > 0;
+    r->mean_displacements[l] = sbfi_level_mean_displacement(&r->statics, l, r->displacements[l]);
+    r->is_valid |= r->mean_displacements[l] > 0 && r->frequencies[l] > 0;
   }
-  for (uint32_t k = 0; k < SBFI_TWISTS && r->sound && use->twists; k++)
+  for (uint32_t k = 0; k < SBFI_TWISTS && r->is_valid && use->twists; k++)
     if (!sbfi_level_twist_frequency(
-            &r->statics, &linear, k, lean_fraction, &r->twist_frequencies[k], scratch))
+            &r->statics, &linear, k, displacement_tolerance, &r->twist_frequencies[k], scratch))
       return SBFI_LATTICE_NO_MEMORY;
-  r->has_twists = r->sound && use->twists;
-  if (r->sound && use->pushes) {
+  r->has_twists = r->is_valid && use->twists;
+  if (r->is_valid && use->pushes) {
     r->has_works = true;
     if (!sbfi_push_works_make(
             &r->works, &r->statics, &linear, sbfi_progress_part(use->progress, 0.7, 0.8), &r->arena))
       return SBFI_LATTICE_NO_MEMORY;
   }
-  for (uint32_t l = 0; l < loads && r->sound && use->falls; l++) {
+  for (uint32_t l = 0; l < loads && r->is_valid && use->gravity_displacements; l++) {
     bool converged;
-    r->falls[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
-    if (!r->falls[l] ||
-        !sbfi_level_give(&r->statics, l, r->fall, fall_tolerance, r->falls[l], &converged,
+    r->gravity_displacements[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
+    if (!r->gravity_displacements[l] ||
+        !sbfi_level_solve_nonlinear(&r->statics, l, r->gravity, gravity_tolerance,
+            r->gravity_displacements[l], &converged,
             sbfi_progress_part(use->progress, 0.8 + 0.2 * l / loads, 0.8 + 0.2 * (l + 1) / loads), scratch))
       return SBFI_LATTICE_NO_MEMORY;
-    if (!converged) r->falls[l] = NULL;
+    if (!converged) r->gravity_displacements[l] = NULL;
   }
   return SBFI_LATTICE_MADE;
 }
 
-static sbfi_lattice_outcome take(sbfi_reference *r, const sbf_soft_body *body, const sbf_level *level,
-    const sbfi_interior_map *interior, const sbfi_reference_use *use, sbfi_arena *scratch) {
+static sbfi_lattice_outcome measure_level(sbfi_reference *r, const sbf_soft_body *body,
+    const sbf_level *level, const sbfi_interior_map *interior, const sbfi_reference_use *use,
+    sbfi_arena *scratch) {
   return sbfi_level_statics_make(&r->statics, body, level, interior, &r->arena) ? measure(r, use, scratch)
                                                                                 : SBFI_LATTICE_NO_MEMORY;
 }
@@ -87,10 +89,11 @@ sbfi_lattice_outcome sbfi_reference_from_level(sbfi_reference *reference, const 
     const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset,
     const sbfi_reference_use *use, const sbf_allocator *allocator) {
   sbfi_arena scratch;
-  *reference = (sbfi_reference){.fall = fall_of(asset, body), .has_falls = use->falls};
+  *reference = (sbfi_reference){
+      .gravity = gravity_of(asset, body), .has_gravity_displacements = use->gravity_displacements};
   sbfi_arena_init(&reference->arena, allocator, 0);
   sbfi_arena_init(&scratch, allocator, 0);
-  sbfi_lattice_outcome outcome = take(reference, body, level, interior, use, &scratch);
+  sbfi_lattice_outcome outcome = measure_level(reference, body, level, interior, use, &scratch);
   sbfi_arena_free(&scratch);
   return outcome;
 }
@@ -99,7 +102,9 @@ sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_so
     uint32_t elements, bool is_rough, const sbf_asset *asset, const sbfi_reference_use *use,
     const sbf_allocator *allocator) {
   sbfi_arena scratch;
-  *reference = (sbfi_reference){.fall = fall_of(asset, body), .has_falls = use->falls, .is_rough = is_rough};
+  *reference = (sbfi_reference){.gravity = gravity_of(asset, body),
+      .has_gravity_displacements = use->gravity_displacements,
+      .is_rough = is_rough};
   sbfi_arena_init(&reference->arena, allocator, 0);
   reference->memory = sbf_asset_create(allocator);
   if (!reference->memory) return SBFI_LATTICE_NO_MEMORY;
@@ -112,7 +117,7 @@ sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_so
   sbfi_lattice_outcome outcome = sbfi_lattice_level_make(
       &reference->made, body, &recipe, reference->memory, &counts, use->progress, &scratch);
   if (outcome == SBFI_LATTICE_MADE && counts.tetrahedra > 0)
-    outcome = take(reference, body, &reference->made, NULL, use, &scratch);
+    outcome = measure_level(reference, body, &reference->made, NULL, use, &scratch);
   sbfi_arena_free(&scratch);
   return outcome;
 }
@@ -126,7 +131,9 @@ void sbfi_reference_free(sbfi_reference *reference) {
 static uint32_t softest(const sbfi_reference *r) {
   uint32_t max = SBFI_MAX_LOADS;
   for (uint32_t l = 0; l < r->statics.load_count; l++)
-    if (r->yieldings[l] > 0 && (max == SBFI_MAX_LOADS || r->yieldings[l] > r->yieldings[max])) max = l;
+    if (r->mean_displacements[l] > 0 &&
+        (max == SBFI_MAX_LOADS || r->mean_displacements[l] > r->mean_displacements[max]))
+      max = l;
   return max;
 }
 
@@ -147,20 +154,20 @@ typedef struct work {
   sbfi_level_statics statics;
   sbfi_linear_statics linear;
   /* Displacements under the small loads. */
-  double *gives[SBFI_MAX_LOADS]; /* (3 x surface points) m */
-  double yieldings[SBFI_MAX_LOADS], frequencies[SBFI_MAX_LOADS];
+  double *displacements[SBFI_MAX_LOADS]; /* (3 x surface points) m */
+  double mean_displacements[SBFI_MAX_LOADS], frequencies[SBFI_MAX_LOADS];
   sbfi_calibration *c;
   sbfi_progress progress;
 } work;
 
-static bool find_yieldings(work *w) {
+static bool find_displacements(work *w) {
   size_t numbers = 3 * (size_t)w->body->surface.positions.count + 1;
   for (uint32_t l = 0; l < w->statics.load_count; l++) {
-    w->gives[l] = sbfi_arena_allocate(w->scratch, numbers, sizeof(double));
-    if (!w->gives[l] || !sbfi_level_solve_linear(&w->statics, &w->linear, l, lean_fraction, w->gives[l],
-                            &w->frequencies[l], w->scratch))
+    w->displacements[l] = sbfi_arena_allocate(w->scratch, numbers, sizeof(double));
+    if (!w->displacements[l] || !sbfi_level_solve_linear(&w->statics, &w->linear, l, displacement_tolerance,
+                                    w->displacements[l], &w->frequencies[l], w->scratch))
       return false;
-    w->yieldings[l] = sbfi_level_mean_displacement(&w->statics, l, w->gives[l]);
+    w->mean_displacements[l] = sbfi_level_mean_displacement(&w->statics, l, w->displacements[l]);
   }
   return true;
 }
@@ -169,15 +176,16 @@ static bool is_sparse(const work *w) {
   return sbfi_surface_is_sparse(w->body);
 }
 
-static double yielding(const work *w, const double *yieldings, const double *frequencies, uint32_t load) {
-  if (!is_sparse(w)) return yieldings[load];
+static double compliance(
+    const work *w, const double *mean_displacements, const double *frequencies, uint32_t load) {
+  if (!is_sparse(w)) return mean_displacements[load];
   return frequencies[load] > 0 ? 1 / (frequencies[load] * frequencies[load]) : 0;
 }
-static double own_yielding(const work *w, uint32_t load) {
-  return yielding(w, w->yieldings, w->frequencies, load);
+static double own_compliance(const work *w, uint32_t load) {
+  return compliance(w, w->mean_displacements, w->frequencies, load);
 }
-static double wanted_yielding(const work *w, uint32_t load) {
-  return yielding(w, w->r->yieldings, w->r->frequencies, load);
+static double target_compliance(const work *w, uint32_t load) {
+  return compliance(w, w->r->mean_displacements, w->r->frequencies, load);
 }
 
 /* Lower bound of the common factor. The slowest mode of a thin fin alone could ask for a factor with which
@@ -197,8 +205,8 @@ static double excess_of(const work *w, uint32_t point, double hardly) {
   double along = 0, square = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++)
     for (size_t k = 3 * (size_t)point; k < 3 * (size_t)point + 3; k++) {
-      along += w->gives[l][k] * w->r->gives[l][k];
-      square += w->r->gives[l][k] * w->r->gives[l][k];
+      along += w->displacements[l][k] * w->r->displacements[l][k];
+      square += w->r->displacements[l][k] * w->r->displacements[l][k];
     }
   return square > hardly ? fmax(along, 0) / square : -1;
 }
@@ -210,7 +218,7 @@ static double mean_square(const work *w) {
     area += (double)w->r->statics.areas[i];
     for (uint32_t l = 0; l < w->statics.load_count; l++)
       for (size_t k = 3 * (size_t)i; k < 3 * (size_t)i + 3; k++)
-        sum += (double)w->r->statics.areas[i] * w->r->gives[l][k] * w->r->gives[l][k];
+        sum += (double)w->r->statics.areas[i] * w->r->displacements[l][k] * w->r->displacements[l][k];
   }
   return area > 0 ? sum / area : 0;
 }
@@ -233,16 +241,16 @@ static double median_excess(const work *w) {
 }
 
 static double fit(const work *w) {
-  double own = 0, wanted = 0;
+  double own = 0, target = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++) {
-    if (!(own_yielding(w, l) > 0) || !(wanted_yielding(w, l) > 0)) continue;
-    own += own_yielding(w, l);
-    wanted += wanted_yielding(w, l);
+    if (!(own_compliance(w, l) > 0) || !(target_compliance(w, l) > 0)) continue;
+    own += own_compliance(w, l);
+    target += target_compliance(w, l);
   }
-  double factor = own > 0 && wanted > 0 ? own / wanted : 1;
-  if (factor > max_whole && !is_sparse(w))
+  double factor = own > 0 && target > 0 ? own / target : 1;
+  if (factor > max_common && !is_sparse(w))
     factor = median_excess(w);
-  else if (factor < min_whole || factor > max_whole)
+  else if (factor < min_common || factor > max_common)
     factor = 1;
   return fmax(factor, min_to_bear(w));
 }
@@ -250,8 +258,8 @@ static double fit(const work *w) {
 static double residual_of(const work *w, double factor) {
   double max = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++)
-    if (own_yielding(w, l) > 0 && wanted_yielding(w, l) > 0)
-      max = fmax(max, fabs(own_yielding(w, l) / factor / wanted_yielding(w, l) - 1));
+    if (own_compliance(w, l) > 0 && target_compliance(w, l) > 0)
+      max = fmax(max, fabs(own_compliance(w, l) / factor / target_compliance(w, l) - 1));
   return max;
 }
 
@@ -260,18 +268,18 @@ static bool find_twists(work *w, double factor) {
   size_t points = w->body->surface.positions.count, numbers = 3 * (size_t)w->statics.network.point_count;
   double *forces = sbfi_arena_allocate(w->scratch, numbers + 1, sizeof *forces);
   double *moved = sbfi_arena_allocate(w->scratch, numbers + 1, sizeof *moved);
-  double *gives = sbfi_arena_allocate(w->scratch, 3 * points + 1, sizeof *gives);
-  if (!forces || !moved || !gives) return false;
+  double *displacements = sbfi_arena_allocate(w->scratch, 3 * points + 1, sizeof *displacements);
+  if (!forces || !moved || !displacements) return false;
   for (uint32_t k = 0; k < SBFI_TWISTS; k++) {
     uint32_t push = SBFI_PUSHES - SBFI_TWISTS + k;
-    const double *wanted = w->r->works.gives[push];
+    const double *target = w->r->works.displacements[push];
     double along = 0, square = 0;
     sbfi_level_push(&w->statics, &w->r->works.pushes, push, forces);
-    sbfi_linear_statics_solve(&w->linear, forces, lean_fraction, moved);
-    sbfi_level_get_surface_displacements(&w->statics, moved, gives);
+    sbfi_linear_statics_solve(&w->linear, forces, displacement_tolerance, moved);
+    sbfi_level_get_surface_displacements(&w->statics, moved, displacements);
     for (size_t i = 0; i < 3 * points; i++) {
-      along += (double)w->r->statics.areas[i / 3] * gives[i] * wanted[i];
-      square += (double)w->r->statics.areas[i / 3] * wanted[i] * wanted[i];
+      along += (double)w->r->statics.areas[i / 3] * displacements[i] * target[i];
+      square += (double)w->r->statics.areas[i / 3] * target[i] * target[i];
     }
     if (square > 0) w->c->twist_errors[k] = along / square / factor - 1;
   }
@@ -281,18 +289,18 @@ static bool find_twists(work *w, double factor) {
 /* The same if the surface has too few points: from the frequency of the whole body under that load. */
 static bool find_slow_twists(work *w, double factor) {
   for (uint32_t k = 0; k < SBFI_TWISTS; k++) {
-    double own, wanted = w->r->twist_frequencies[k];
-    if (!sbfi_level_twist_frequency(&w->statics, &w->linear, k, lean_fraction, &own, w->scratch))
+    double own, target = w->r->twist_frequencies[k];
+    if (!sbfi_level_twist_frequency(&w->statics, &w->linear, k, displacement_tolerance, &own, w->scratch))
       return false;
-    if (own > 0 && wanted > 0) w->c->twist_errors[k] = wanted * wanted / (own * own) / factor - 1;
+    if (own > 0 && target > 0) w->c->twist_errors[k] = target * target / (own * own) / factor - 1;
   }
   return true;
 }
 
 static bool find_errors(work *w, double factor) {
   for (uint32_t l = 0; l < w->statics.load_count; l++)
-    if (own_yielding(w, l) > 0 && wanted_yielding(w, l) > 0)
-      w->c->load_errors[l] = own_yielding(w, l) / factor / wanted_yielding(w, l) - 1;
+    if (own_compliance(w, l) > 0 && target_compliance(w, l) > 0)
+      w->c->load_errors[l] = own_compliance(w, l) / factor / target_compliance(w, l) - 1;
   if (is_sparse(w)) return !w->r->has_twists || find_slow_twists(w, factor);
   return !w->r->has_works || find_twists(w, factor);
 }
@@ -324,12 +332,12 @@ static bool write_moduli(work *w, const float *stated, double factor) {
 }
 
 /* Displacements of the reference under the loads. */
-static sbfi_wanted wanted_of(const work *w) {
-  sbfi_wanted wanted = {.gives = (const double *const *)w->r->gives};
-  if (!w->r->has_works) return wanted;
-  wanted.pushes = &w->r->works.pushes;
-  wanted.pushed = (const double *const *)w->r->works.gives;
-  return wanted;
+static sbfi_target_displacements targets_of(const work *w) {
+  sbfi_target_displacements target = {.displacements = (const double *const *)w->r->displacements};
+  if (!w->r->has_works) return target;
+  target.pushes = &w->r->works.pushes;
+  target.pushed = (const double *const *)w->r->works.displacements;
+  return target;
 }
 
 static bool fit_lattice(work *w, double *factor) {
@@ -337,17 +345,17 @@ static bool fit_lattice(work *w, double *factor) {
   float *stated = sbfi_arena_copy(w->scratch, w->statics.moduli, count, sizeof *stated);
   if (!stated) return false;
   if (w->r->has_works && !is_sparse(w)) {
-    const sbfi_wanted wanted = wanted_of(w);
+    const sbfi_target_displacements target = targets_of(w);
     sbfi_factor_bounds bounds = lattice_bounds;
     double left;
     if (w->r->is_rough) bounds.rounds = ROUGH_ROUNDS;
     if (!sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works,
             sbfi_progress_part(w->progress, 0, 0.2), w->scratch) ||
-        !sbfi_stiffness_descent(&w->statics, &w->linear, stated, &wanted, &bounds, &left,
+        !sbfi_stiffness_descent(&w->statics, &w->linear, stated, &target, &bounds, &left,
             sbfi_progress_part(w->progress, 0.2, 0.7), w->scratch))
       return false;
   }
-  if (!find_yieldings(w)) return false;
+  if (!find_displacements(w)) return false;
   *factor = fit(w);
   return write_moduli(w, stated, *factor);
 }
@@ -357,9 +365,9 @@ static bool fit_springs(work *w) {
   sbf_spring_set *sets = sbf_asset_allocate(w->asset, w->level->springs.count, sizeof *sets);
   const float *from = w->statics.stiffness;
   const float *before = sbfi_arena_copy(w->scratch, from, w->statics.network.spring_count, sizeof *before);
-  const sbfi_wanted wanted = wanted_of(w);
+  const sbfi_target_displacements target = targets_of(w);
   if (!sets || !before ||
-      !sbfi_spring_fit(&w->statics, &w->linear, &wanted, &factors, w->progress, w->scratch))
+      !sbfi_spring_fit(&w->statics, &w->linear, &target, &factors, w->progress, w->scratch))
     return false;
   for (uint32_t s = 0; s < w->level->springs.count; s++) {
     sbf_spring_set *set = &sets[s];
@@ -382,7 +390,7 @@ static bool fit_springs(work *w) {
   w->c->max = factors.max;
   w->c->residual_before = factors.before;
   w->c->residual = factors.after;
-  return find_yieldings(w);
+  return find_displacements(w);
 }
 
 /* ---- The comparison ---- */
@@ -402,37 +410,40 @@ static double farthest(const double *a, double a_scale, const double *b, double 
 
 /* Compares under gravity along one of the axes, or under bending: with large strains, or with the small loads
  * if large strains were not requested or one of the two does not converge. */
-static bool compare_under(work *w, uint32_t l, bool gives, double factor, double *give, double *off) {
+static bool compare_under(
+    work *w, uint32_t l, bool has_linear, double factor, double *displacements, double *error) {
   uint32_t points = w->body->surface.positions.count;
-  const double *fall = w->r->falls[l];
-  bool converged = fall && !gives;
-  if (fall && gives &&
-      !sbfi_level_give(&w->statics, l, w->r->fall, fall_tolerance, give, &converged,
+  const double *expected = w->r->gravity_displacements[l];
+  bool converged = expected && !has_linear;
+  if (expected && has_linear &&
+      !sbfi_level_solve_nonlinear(&w->statics, l, w->r->gravity, gravity_tolerance, displacements, &converged,
           sbfi_progress_part(w->progress, 0.7 + 0.3 * l / w->r->statics.load_count,
               0.7 + 0.3 * (l + 1) / w->r->statics.load_count),
           w->scratch))
     return false;
   if (converged)
-    *off = farthest(give, 1, fall, 1, points);
-  else if (gives)
-    *off = farthest(w->gives[l], w->r->fall / factor, w->r->gives[l], w->r->fall, points);
+    *error = farthest(displacements, 1, expected, 1, points);
+  else if (has_linear)
+    *error =
+        farthest(w->displacements[l], w->r->gravity / factor, w->r->displacements[l], w->r->gravity, points);
   else /* does not move at all */
-    *off = farthest(give, 1, w->r->gives[l], w->r->fall, points);
+    *error = farthest(displacements, 1, w->r->displacements[l], w->r->gravity, points);
   /* Linear displacements larger than the body's size give no information about positions. */
-  if (converged || !gives || *off <= w->r->statics.size) return true;
-  *off = INFINITY;
-  w->c->unsettled |= farthest(w->r->gives[l], w->r->fall, give, 0, points) <= w->r->statics.size;
+  if (converged || !has_linear || *error <= w->r->statics.size) return true;
+  *error = INFINITY;
+  w->c->unsettled |=
+      farthest(w->r->displacements[l], w->r->gravity, displacements, 0, points) <= w->r->statics.size;
   return true;
 }
 
-static bool compare(work *w, bool gives, double factor) {
-  double *give =
-      sbfi_arena_allocate(w->scratch, (size_t)w->body->surface.positions.count + 1, 3 * sizeof *give);
-  if (!give) return false;
+static bool compare(work *w, bool has_linear, double factor) {
+  double *displacements = sbfi_arena_allocate(
+      w->scratch, (size_t)w->body->surface.positions.count + 1, 3 * sizeof *displacements);
+  if (!displacements) return false;
   for (uint32_t l = 0; l < w->r->statics.load_count; l++) {
-    double off = 0;
-    if (!compare_under(w, l, gives, factor, give, &off)) return false;
-    w->c->error = fmax(w->c->error, off);
+    double error = 0;
+    if (!compare_under(w, l, has_linear, factor, displacements, &error)) return false;
+    w->c->error = fmax(w->c->error, error);
   }
   return true;
 }
@@ -476,24 +487,25 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
   double factor = 1;
   springs &= level->model == SBF_ELASTIC_MODEL_SPRINGS;
   if (!sbfi_level_statics_make(&w->statics, w->body, level, interior, w->scratch)) return false;
-  bool gives = level->model != SBF_ELASTIC_MODEL_JIGGLE && w->statics.is_pinned == w->r->statics.is_pinned;
-  w->c->unsettled = w->statics.turns;
-  if (gives && !w->c->unsettled) {
+  bool has_linear =
+      level->model != SBF_ELASTIC_MODEL_JIGGLE && w->statics.is_pinned == w->r->statics.is_pinned;
+  w->c->unsettled = w->statics.can_rotate;
+  if (has_linear && !w->c->unsettled) {
     uint32_t load = softest(w->r);
     if (!make_linear(w)) return false;
-    if (!(lattice ? fit_lattice(w, &factor) : springs ? fit_springs(w) : find_yieldings(w))) return false;
+    if (!(lattice ? fit_lattice(w, &factor) : springs ? fit_springs(w) : find_displacements(w))) return false;
     if (!springs) w->c->residual = residual_of(w, factor);
     if (lattice && !find_errors(w, factor)) return false;
     if (load < SBFI_MAX_LOADS && w->frequencies[load] > 0)
       w->c->period_error = w->r->frequencies[load] / (w->frequencies[load] * sqrt(factor)) - 1;
   }
-  if (!w->c->unsettled && !compare(w, gives, factor)) return false;
+  if (!w->c->unsettled && !compare(w, has_linear, factor)) return false;
   if (w->c->unsettled) {
     w->c->error = INFINITY;
     level->lattice = before.lattice;
     level->springs = before.springs;
     if (!sbfi_level_statics_make(&w->statics, w->body, level, interior, w->scratch)) return false;
-  } else if (gives && (lattice || springs) && !record(w)) {
+  } else if (has_linear && (lattice || springs) && !record(w)) {
     return false;
   }
   level->simulation.error = w->c->error < FLT_MAX ? (float)w->c->error : 0;
@@ -503,7 +515,7 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
   return true;
 }
 
-double sbfi_calibration_off(const sbfi_calibration *c) {
+double sbfi_calibration_max_error(const sbfi_calibration *c) {
   double max = 0; /* fmax ignores unknown values (NaN) */
   for (uint32_t l = 0; l < SBFI_MAX_LOADS; l++) max = fmax(max, fabs(c->load_errors[l]));
   for (uint32_t k = 0; k < SBFI_TWISTS; k++) max = fmax(max, fabs(c->twist_errors[k]));

@@ -18,9 +18,9 @@ enum { SBFI_REFERENCE_ELEMENTS = 16000, SBFI_SPRING_REFERENCE_ELEMENTS = 4000 };
 
 /* Purpose of a reference. */
 typedef struct sbfi_reference_use {
-  bool falls;  /* errors in metres, under gravity */
-  bool twists; /* errors under twists */
-  bool pushes; /* moduli element by element */
+  bool gravity_displacements; /* errors in metres, under gravity */
+  bool twists;                /* errors under twists */
+  bool pushes;                /* moduli element by element */
   sbfi_progress progress;
 } sbfi_reference_use;
 
@@ -31,13 +31,15 @@ typedef struct sbfi_reference {
   sbf_level made;
   sbfi_level_statics statics;
   bool is_rough;
-  bool sound;  /* it has stiffness; otherwise nothing below is known */
-  double fall; /* acceleration of gravity, m/s^2 */
-  bool has_falls;
-  double *gives[SBFI_MAX_LOADS];      /* (3 x surface points) m, displacements under small loads of 1 m/s^2 */
-  double *falls[SBFI_MAX_LOADS];      /* the same under gravity; NULL: not requested, or no convergence */
-  double yieldings[SBFI_MAX_LOADS];   /* m, mean displacement along each small load */
-  double frequencies[SBFI_MAX_LOADS]; /* rad/s, by Rayleigh's quotient */
+  bool is_valid;  /* it has stiffness; otherwise nothing below is known */
+  double gravity; /* acceleration of gravity, m/s^2 */
+  bool has_gravity_displacements;
+  double
+      *displacements[SBFI_MAX_LOADS]; /* (3 x surface points) m, displacements under small loads of 1 m/s^2 */
+  double *gravity_displacements[SBFI_MAX_LOADS]; /* the same under gravity; NULL: not requested, or no
+                                                    convergence */
+  double mean_displacements[SBFI_MAX_LOADS];     /* m, mean displacement along each small load */
+  double frequencies[SBFI_MAX_LOADS];            /* rad/s, by Rayleigh's quotient */
   bool has_twists;
   double twist_frequencies[SBFI_TWISTS]; /* the same under twists */
   bool has_works;
@@ -49,7 +51,7 @@ typedef struct sbfi_reference {
 bool sbfi_surface_is_sparse(const sbf_soft_body *body);
 
 /* Builds a lattice of the body with about this many elements and measures its displacements. The body has
- * polygons. The result is not sound if nothing is enclosed. `asset` has bones and rigid bodies. A rough
+ * polygons. The result is not valid if nothing is enclosed. `asset` has bones and rigid bodies. A rough
  * reference is cheaper, for scenes of many bodies: its number of elements is off by up to 30 per cent, and
  * moduli are fitted in half the rounds, which leaves 4 per cent more of the mismatch. Must be freed after
  * any result. */
@@ -89,9 +91,9 @@ typedef struct sbfi_calibration {
 } sbfi_calibration;
 
 /* A level with a larger relative error under any load does not represent the body. */
-#define SBFI_MAX_OFF 0.25
+#define SBFI_MAX_LOAD_ERROR 0.25
 /* Largest relative error, of either sign, under any known load. */
-double sbfi_calibration_off(const sbfi_calibration *calibration);
+double sbfi_calibration_max_error(const sbfi_calibration *calibration);
 
 /* Calibrates a level of tetrahedra or, with `springs`, of springs, and compares it. Its lists become owned
  * by `asset`. Other levels are only compared; a jiggle level counts as rigid. Sets the level's

@@ -65,7 +65,7 @@ static rigid nearest_rigid(
   return motion;
 }
 
-static void take_off(const rigid *motion, const sbf_vec3 *positions, double *field, uint32_t count) {
+static void subtract_motion(const rigid *motion, const sbf_vec3 *positions, double *field, uint32_t count) {
   for (uint32_t i = 0; i < count; i++) {
     sbfi_d3 r = sbfi_d3_sub(sbfi_d3_of(positions[i]), motion->middle);
     sbfi_d3 u = sbfi_d3_add(motion->v, sbfi_d3_cross(motion->w, r));
@@ -94,7 +94,7 @@ static void balance(const sbf_spring_network *n, double *forces) {
   for (size_t i = 0; i < 3 * (size_t)n->point_count; i++)
     forces[i] = n->masses[i / 3] > 0 ? forces[i] / n->masses[i / 3] : 0;
   rigid motion = nearest_rigid(n->positions, n->masses, forces, n->point_count);
-  take_off(&motion, n->positions, forces, n->point_count);
+  subtract_motion(&motion, n->positions, forces, n->point_count);
   for (size_t i = 0; i < 3 * (size_t)n->point_count; i++) forces[i] *= n->masses[i / 3];
 }
 
@@ -123,10 +123,10 @@ bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *s
   if (!made->patches || !nearest2) return false;
   uint32_t middle = UINT32_MAX;
   for (uint32_t i = 0; i < points->count; i++) {
-    bool takes_part = s->areas[i] > 0 && is_loose(s, i);
+    bool is_pushed = s->areas[i] > 0 && is_loose(s, i);
     made->patches[i] = UINT32_MAX;
-    nearest2[i] = takes_part ? INFINITY : -1;
-    if (takes_part && middle == UINT32_MAX) middle = i;
+    nearest2[i] = is_pushed ? INFINITY : -1;
+    if (is_pushed && middle == UINT32_MAX) middle = i;
   }
   while (middle != UINT32_MAX && made->patch_count < SBFI_PUSHED_PATCHES) {
     double max = 0;
@@ -220,10 +220,10 @@ void sbfi_level_get_surface_displacements(
   }
   if (s->is_pinned) return;
   rigid motion = nearest_rigid(surface->at, s->areas, displacements, surface->count);
-  take_off(&motion, surface->at, displacements, surface->count);
+  subtract_motion(&motion, surface->at, displacements, surface->count);
 }
 
-bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, double tolerance,
+bool sbfi_level_solve_nonlinear(const sbfi_level_statics *s, uint32_t load, double size, double tolerance,
     double *displacements, bool *converged, sbfi_progress progress, sbfi_arena *scratch) {
   const sbf_spring_network *n = &s->network;
   size_t numbers = 3 * (size_t)n->point_count;

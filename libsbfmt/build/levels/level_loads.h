@@ -43,8 +43,8 @@ bool sbfi_level_twist_frequency(const sbfi_level_statics *statics, sbfi_linear_s
 /* Displacements of the surface's points (3 * surface points, m) under load `load` of `size` m/s^2, with
  * large strains, until all but `tolerance` of the load is balanced; fails to converge after a limited
  * number of Newton steps. False if memory runs out or the build is cancelled. */
-bool sbfi_level_give(const sbfi_level_statics *statics, uint32_t load, double size, double tolerance,
-    double *displacements, bool *converged, sbfi_progress progress, sbfi_arena *scratch);
+bool sbfi_level_solve_nonlinear(const sbfi_level_statics *statics, uint32_t load, double size,
+    double tolerance, double *displacements, bool *converged, sbfi_progress progress, sbfi_arena *scratch);
 
 /* The same for small strains under 1 m/s^2, to relative accuracy `fraction`. `*frequency` rad/s is
  * Rayleigh's quotient of the displacements: slightly above the lowest mode's, if the load excites that

@@ -36,7 +36,7 @@ void sbfi_level_set_free(sbfi_level_set *set) {
   if (set->has_reference) sbfi_reference_free(&set->reference);
 }
 
-static bool has_falls(const sbfi_level_set *l) {
+static bool has_gravity_displacements(const sbfi_level_set *l) {
   return l->recipe->error > 0 || l->recipe->levels > 1;
 }
 
@@ -46,8 +46,10 @@ static sbfi_reference_use use_of(const sbfi_level_set *l) {
   /* Levels of springs, from the fourth on, are always fitted by pushes. */
   bool pushes =
       !sbfi_surface_is_sparse(l->body) || sbfi_level_set_lattices(l->recipe->levels) + 1 < l->recipe->levels;
-  return (sbfi_reference_use){
-      .falls = has_falls(l), .twists = calibrates, .pushes = calibrates && pushes, .progress = l->progress};
+  return (sbfi_reference_use){.gravity_displacements = has_gravity_displacements(l),
+      .twists = calibrates,
+      .pushes = calibrates && pushes,
+      .progress = l->progress};
 }
 
 static sbfi_lattice_outcome make_reference(sbfi_level_set *l, uint32_t elements) {
@@ -66,11 +68,11 @@ static sbfi_lattice_outcome measure(
   if (!sbfi_level_calibrate(level, l->body, interior, &l->reference, l->recipe->calibrate, l->recipe->tick,
           l->asset, calibration, sbfi_progress_part(l->progress, 0.9, 1), l->allocator))
     return SBFI_LATTICE_NO_MEMORY;
-  double off = calibration->unsettled ? 0 : sbfi_calibration_off(calibration);
-  if (!calibration->unsettled && !(off > SBFI_MAX_OFF)) return SBFI_LATTICE_MADE;
+  double load_error = calibration->unsettled ? 0 : sbfi_calibration_max_error(calibration);
+  if (!calibration->unsettled && !(load_error > SBFI_MAX_LOAD_ERROR)) return SBFI_LATTICE_MADE;
   uint32_t elements = level->lattice.tetrahedra.count;
   bool is_finest = level == l->levels;
-  l->poor[l->poor_count++] = (sbfi_poor_level){elements, off, is_finest};
+  l->poor[l->poor_count++] = (sbfi_poor_level){elements, load_error, is_finest};
   if (!is_finest) l->level_count--;
   return SBFI_LATTICE_MADE;
 }
@@ -93,7 +95,7 @@ sbfi_lattice_outcome sbfi_level_set_pick(sbfi_level_set *set, uint32_t *elements
   sbfi_lattice_outcome outcome = make_reference(set, reference_elements(set));
   *reached = false;
   *elements = reference_elements(set);
-  if (outcome != SBFI_LATTICE_MADE || !set->reference.sound) return outcome;
+  if (outcome != SBFI_LATTICE_MADE || !set->reference.is_valid) return outcome;
   for (uint32_t tried = COARSEST_ELEMENTS; tried < fine_elements(set) && outcome == SBFI_LATTICE_MADE;
        tried *= 4) {
     sbf_level level;
@@ -112,7 +114,7 @@ sbfi_lattice_outcome sbfi_level_set_pick(sbfi_level_set *set, uint32_t *elements
     if (!some || outcome != SBFI_LATTICE_MADE || calibration.error > set->recipe->error) continue;
     if (!*reached) *elements = tried;
     *reached = true;
-    if (sbfi_calibration_off(&calibration) > SBFI_MAX_OFF) continue;
+    if (sbfi_calibration_max_error(&calibration) > SBFI_MAX_LOAD_ERROR) continue;
     *elements = tried;
     break;
   }
@@ -120,14 +122,14 @@ sbfi_lattice_outcome sbfi_level_set_pick(sbfi_level_set *set, uint32_t *elements
 }
 
 /* Handles the finest level: calibrates it, or makes it the reference. */
-static sbfi_lattice_outcome take_finest(sbfi_level_set *l, const sbfi_interior_map *interior) {
+static sbfi_lattice_outcome handle_finest(sbfi_level_set *l, const sbfi_interior_map *interior) {
   sbf_level *level = &l->levels[l->level_count++];
   bool lattice = level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
   bool coarse = lattice && level->lattice.tetrahedra.count < fine_elements(l);
-  if (lattice ? coarse && (l->recipe->calibrate || has_falls(l)) : l->recipe->calibrate) {
+  if (lattice ? coarse && (l->recipe->calibrate || has_gravity_displacements(l)) : l->recipe->calibrate) {
     sbfi_lattice_outcome outcome =
         make_reference(l, lattice ? reference_elements(l) : SBFI_SPRING_REFERENCE_ELEMENTS);
-    if (outcome != SBFI_LATTICE_MADE || !l->reference.sound || !l->recipe->calibrate) return outcome;
+    if (outcome != SBFI_LATTICE_MADE || !l->reference.is_valid || !l->recipe->calibrate) return outcome;
     return measure(l, level, interior, &l->calibrations[0]);
   }
   if (l->recipe->levels < 2 || l->has_reference) return SBFI_LATTICE_MADE;
@@ -157,7 +159,7 @@ static sbfi_lattice_outcome add_lattices(sbfi_level_set *l) {
     level->name = sbf_asset_copy_text(l->asset, name);
     if (!level->name) return SBFI_LATTICE_NO_MEMORY;
     l->level_count++;
-    if (!l->reference.sound || !l->recipe->calibrate) continue;
+    if (!l->reference.is_valid || !l->recipe->calibrate) continue;
     outcome = measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
     if (outcome != SBFI_LATTICE_MADE) return outcome;
   }
@@ -178,18 +180,18 @@ static sbfi_lattice_outcome add_springs(sbfi_level_set *l, sbfi_arena *arena) {
           sbfi_progress_part(l->progress, 0.9, 1), arena))
     return SBFI_LATTICE_NO_MEMORY;
   l->level_count++;
-  if (!l->reference.sound) return SBFI_LATTICE_MADE;
+  if (!l->reference.is_valid) return SBFI_LATTICE_MADE;
   return measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
 }
 
 static sbfi_lattice_outcome add_jiggle(sbfi_level_set *l) {
   const double turn = 6.283185307179586;
   sbf_level *level = &l->levels[l->level_count];
-  double frequency = l->reference.sound ? sbfi_reference_frequency(&l->reference) / turn : 0;
+  double frequency = l->reference.is_valid ? sbfi_reference_frequency(&l->reference) / turn : 0;
   if (!sbfi_jiggle_level_make(level, l->body, frequency, l->recipe->derivation, l->asset))
     return SBFI_LATTICE_NO_MEMORY;
   l->level_count++;
-  if (!l->reference.sound) return SBFI_LATTICE_MADE;
+  if (!l->reference.is_valid) return SBFI_LATTICE_MADE;
   return measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
 }
 
@@ -199,7 +201,7 @@ sbfi_lattice_outcome sbfi_level_set_make(
   set->levels = sbf_asset_allocate(set->asset, levels, sizeof *set->levels);
   if (!set->levels) return SBFI_LATTICE_NO_MEMORY;
   set->levels[0] = *finest;
-  sbfi_lattice_outcome outcome = take_finest(set, interior);
+  sbfi_lattice_outcome outcome = handle_finest(set, interior);
   bool lattice = finest->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
   if (outcome == SBFI_LATTICE_MADE && lattice) outcome = add_lattices(set);
   if (outcome == SBFI_LATTICE_MADE && lattice && levels >= 4) outcome = add_springs(set, arena);

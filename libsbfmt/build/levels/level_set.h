@@ -17,10 +17,10 @@ typedef struct sbfi_level_set_recipe {
   int32_t derivation;
 } sbfi_level_set_recipe;
 
-/* A level that does not converge, or has an error above SBFI_MAX_OFF. */
+/* A level that does not converge, or has an error above SBFI_MAX_LOAD_ERROR. */
 typedef struct sbfi_poor_level {
   uint32_t elements; /* number of tetrahedra, or for springs that of their lattice */
-  double off;        /* largest relative error under a load; 0: no convergence */
+  double load_error; /* largest relative error under a load; 0: no convergence */
   bool is_kept;      /* the finest level; others are removed */
 } sbfi_poor_level;
 
@@ -49,15 +49,15 @@ void sbfi_level_set_init(sbfi_level_set *set, const sbf_soft_body *body, const s
 void sbfi_level_set_free(sbfi_level_set *set);
 
 /* Finds the coarsest lattice, in steps of four times the elements, that meets the recipe's error when
- * calibrated and has an error of at most SBFI_MAX_OFF under every load, and returns its approximate number
- * of tetrahedra. If none meets both, returns the coarsest that meets the error; `*reached` is false if none
- * with fewer elements than the reference does. */
+ * calibrated and has an error of at most SBFI_MAX_LOAD_ERROR under every load, and returns its approximate
+ * number of tetrahedra. If none meets both, returns the coarsest that meets the error; `*reached` is false if
+ * none with fewer elements than the reference does. */
 sbfi_lattice_outcome sbfi_level_set_pick(sbfi_level_set *set, uint32_t *elements, bool *reached);
 
 /* Builds and measures all levels from the finest, of springs or tetrahedra, whose map is `interior`. Skips
  * a lattice that finds nothing to fill, is no coarser than the previous one, does not converge under
- * gravity or has an error above SBFI_MAX_OFF, and springs that do not converge. Springs follow the edges
- * of a lattice and keep its tetrahedra until embeddings are made (lattice_springs_level.h). `arena` is
+ * gravity or has an error above SBFI_MAX_LOAD_ERROR, and springs that do not converge. Springs follow the
+ * edges of a lattice and keep its tetrahedra until embeddings are made (lattice_springs_level.h). `arena` is
  * scratch. */
 sbfi_lattice_outcome sbfi_level_set_make(
     sbfi_level_set *set, const sbf_level *finest, const sbfi_interior_map *interior, sbfi_arena *arena);

@@ -20,7 +20,7 @@ static bool acts(const sbf_level *level, const sbf_spring_set *set) {
   return set->extra || level->model == SBF_ELASTIC_MODEL_SPRINGS;
 }
 
-static bool take_springs(sbfi_level_statics *s, sbfi_arena *arena) {
+static bool add_springs(sbfi_level_statics *s, sbfi_arena *arena) {
   const sbf_level *level = s->level;
   size_t all = 0, used = 0, at = 0;
   for (uint32_t i = 0; i < level->springs.count; i++) {
@@ -49,7 +49,7 @@ static bool take_springs(sbfi_level_statics *s, sbfi_arena *arena) {
   return true;
 }
 
-static bool take_tetrahedra(sbfi_level_statics *s, sbfi_arena *arena) {
+static bool add_tetrahedra(sbfi_level_statics *s, sbfi_arena *arena) {
   const sbf_uint4_list *at = &s->level->lattice.tetrahedra;
   if (s->level->model != SBF_ELASTIC_MODEL_TETRAHEDRA || at->count == 0) return true;
   float *factors = sbfi_arena_allocate(arena, s->level->positions.count, sizeof *factors);
@@ -81,7 +81,7 @@ static double cube_root(double x) {
 }
 
 /* Adds goal springs. */
-static bool take_anchors(sbfi_level_statics *s, const float *masses, sbfi_arena *arena) {
+static bool add_anchors(sbfi_level_statics *s, const float *masses, sbfi_arena *arena) {
   const sbf_attributes *matter = &s->body->attributes;
   float *anchors = sbfi_arena_allocate(arena, s->level->positions.count, sizeof *anchors);
   bool any = false;
@@ -147,12 +147,12 @@ bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *b
   statics->is_pinned = sbf_level_pinned_points(level, pinned) > 0;
   statics->mass = sbf_level_masses(body, level, pinned, masses);
   statics->network.masses = masses;
-  if (!take_springs(statics, arena) || !take_tetrahedra(statics, arena) ||
-      !take_anchors(statics, masses, arena) || !embed_surface(statics, interior, arena))
+  if (!add_springs(statics, arena) || !add_tetrahedra(statics, arena) ||
+      !add_anchors(statics, masses, arena) || !embed_surface(statics, interior, arena))
     return false;
   double loose_kg;
-  if (!sbfi_loose_pieces_hold(&statics->network, statics->is_pinned, masses, &loose_kg, arena) ||
-      !sbfi_pieces_can_rotate(&statics->network, statics->size, &statics->turns, arena))
+  if (!sbfi_loose_pieces_pin(&statics->network, statics->is_pinned, masses, &loose_kg, arena) ||
+      !sbfi_pieces_can_rotate(&statics->network, statics->size, &statics->can_rotate, arena))
     return false;
   statics->mass -= loose_kg;
   if (!statics->is_pinned && !add_tethers(statics, arena)) return false;

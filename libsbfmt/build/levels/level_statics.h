@@ -18,7 +18,7 @@ typedef struct sbfi_level_statics {
   const sbf_level *level;
   sbf_spring_network network;
   bool is_pinned;
-  bool turns; /* the whole or a piece can rotate about its pins: static results are meaningless */
+  bool can_rotate; /* the whole or a piece can rotate about its pins: static results are meaningless */
   uint32_t load_count;
   sbfi_embedder embedder;
   sbfi_embedded_vertex *embedded; /* (surface points) */

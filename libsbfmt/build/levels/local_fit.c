@@ -44,10 +44,10 @@ bool sbfi_push_works_make(sbfi_push_works *works, const sbfi_level_statics *s, s
     sbfi_level_push(s, &works->pushes, push, forces);
     sbfi_linear_statics_solve(linear, forces, push_fraction, moved);
     works->totals[push] = sbfi_dot(forces, moved, numbers);
-    works->gives[push] =
+    works->displacements[push] =
         sbfi_arena_allocate(arena, (size_t)s->body->surface.positions.count + 1, 3 * sizeof(double));
-    if (!works->gives[push]) return false;
-    sbfi_level_get_surface_displacements(s, moved, works->gives[push]);
+    if (!works->displacements[push]) return false;
+    sbfi_level_get_surface_displacements(s, moved, works->displacements[push]);
     if (works->totals[push] > 0) add_works(linear, moved, 1 / works->totals[push], works->fractions);
   }
   return true;
@@ -57,7 +57,7 @@ typedef struct work {
   sbfi_level_statics *statics;
   sbfi_linear_statics *linear;
   const sbfi_push_works *works;
-  double *wanted, *own;       /* (points) */
+  double *target, *own;       /* (points) */
   double *sums, *counts;      /* (points) for smoothing */
   double *forces;             /* (3 x points) */
   double *moved[SBFI_PUSHES]; /* (3 x points) */
@@ -92,19 +92,19 @@ static void map_works(const work *w, const sbfi_level_statics *of) {
     double weights[4] = {by.weights.x, by.weights.y, by.weights.z, by.weights.w}, sum = 0;
     for (int k = 0; k < 4; k++) sum += weights[k] = fmax(weights[k], 0);
     for (int k = 0; k < 4 && sum > 0; k++)
-      w->wanted[by.points.at[k]] += w->works->fractions[i] * weights[k] / sum;
+      w->target[by.points.at[k]] += w->works->fractions[i] * weights[k] / sum;
   }
 }
 
 static void change(const work *w, double none) {
   const sbf_spring_network *n = &w->statics->network;
   for (uint32_t t = 0; t < n->tetrahedron_count; t++) {
-    double own = none, wanted = none;
+    double own = none, target = none;
     for (int k = 0; k < 4; k++) {
       own += w->own[n->tetrahedra[t].at[k]];
-      wanted += w->wanted[n->tetrahedra[t].at[k]];
+      target += w->target[n->tetrahedra[t].at[k]];
     }
-    double ratio = fmin(fmax(own / wanted, 1 / max_change), max_change), root = sqrt(ratio);
+    double ratio = fmin(fmax(own / target, 1 / max_change), max_change), root = sqrt(ratio);
     double stated = w->stated[t], factor = w->statics->moduli[t] / stated * root * sqrt(root);
     w->statics->moduli[t] = (float)(stated * fmin(fmax(factor, min_factor), max_factor));
   }
@@ -113,7 +113,7 @@ static void change(const work *w, double none) {
 static bool reserve(work *w, sbfi_arena *arena) {
   const sbf_spring_network *n = &w->statics->network;
   size_t points = (size_t)n->point_count + 1;
-  double **lists[] = {&w->wanted, &w->own, &w->sums, &w->counts};
+  double **lists[] = {&w->target, &w->own, &w->sums, &w->counts};
   for (int i = 0; i < 4; i++)
     if (!(*lists[i] = sbfi_arena_allocate(arena, points, sizeof(double)))) return false;
   for (int i = 0; i < SBFI_PUSHES; i++)
@@ -129,9 +129,9 @@ bool sbfi_local_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, co
   const sbf_spring_network *n = &statics->network;
   if (!reserve(&w, scratch)) return false;
   map_works(&w, of);
-  smooth(&w, w.wanted);
+  smooth(&w, w.target);
   double sum = 0;
-  for (uint32_t i = 0; i < n->point_count; i++) sum += w.wanted[i];
+  for (uint32_t i = 0; i < n->point_count; i++) sum += w.target[i];
   if (!(sum > 0)) return true;
   for (int round = 0; round < ROUNDS; round++) {
     memset(w.own, 0, n->point_count * sizeof *w.own);

@@ -13,9 +13,9 @@
 
 typedef struct sbfi_push_works {
   sbfi_level_pushes pushes;
-  double totals[SBFI_PUSHES]; /* J, of each push */
-  double *fractions;          /* (level points) their fractions of the totals, over all pushes */
-  double *gives[SBFI_PUSHES]; /* (3 x surface points) m */
+  double totals[SBFI_PUSHES];         /* J, of each push */
+  double *fractions;                  /* (level points) their fractions of the totals, over all pushes */
+  double *displacements[SBFI_PUSHES]; /* (3 x surface points) m */
 } sbfi_push_works;
 
 /* For the reference level; `linear` is of its network. Allocates from `arena`; false if memory runs out or

@@ -20,9 +20,9 @@ enum { MAX_TRIED_POINTS = 4000 };
 typedef struct work {
   sbfi_level_statics *statics;
   sbfi_linear_statics *linear;
-  const double *const *gives; /* (loads) NULL: ignored */
-  float *stated;              /* (springs) N/m, original stiffness */
-  double *moved;              /* (3 x surface points) */
+  const double *const *displacements; /* (loads) NULL: ignored */
+  float *stated;                      /* (springs) N/m, original stiffness */
+  double *moved;                      /* (3 x surface points) */
   sbfi_arena *scratch;
   sbfi_progress progress;
 } work;
@@ -55,7 +55,7 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
   set_stiffness(w, ratio, 1);
   for (uint32_t load = 0; load < s->load_count; load++) {
     double sums[3] = {0}, frequency;
-    if (!w->gives[load]) continue;
+    if (!w->displacements[load]) continue;
     bool is_long = load == 0 || s->network.point_count > MAX_TRIED_POINTS;
     if (is_long && !sbfi_progress_report(w->progress, 0)) return false;
     if (!sbfi_level_solve_linear(s, w->linear, load, solve_fraction, w->moved, &frequency, w->scratch))
@@ -63,8 +63,8 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
     for (size_t i = 0; i < 3 * (size_t)s->body->surface.positions.count; i++) {
       double area = s->areas[i / 3];
       sums[0] += area * w->moved[i] * w->moved[i];
-      sums[1] += area * w->moved[i] * w->gives[load][i];
-      sums[2] += area * w->gives[load][i] * w->gives[load][i];
+      sums[1] += area * w->moved[i] * w->displacements[load][i];
+      sums[2] += area * w->displacements[load][i] * w->displacements[load][i];
     }
     if (!(sums[2] > 0)) continue;
     own += sums[0] / sums[2];
@@ -84,7 +84,7 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
   return true;
 }
 
-static void take_means(const work *w, sbfi_spring_factors *factors) {
+static void find_means(const work *w, sbfi_spring_factors *factors) {
   uint32_t set = UINT32_MAX, left = 0, counts[2] = {0};
   double sums[2] = {0};
   factors->min = INFINITY;
@@ -103,10 +103,14 @@ static void take_means(const work *w, sbfi_spring_factors *factors) {
   if (counts[0] + counts[1] == 0) factors->min = factors->max = 1;
 }
 
-bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted,
-    sbfi_spring_factors *factors, sbfi_progress progress, sbfi_arena *scratch) {
-  work w = {
-      .statics = statics, .linear = linear, .gives = wanted->gives, .scratch = scratch, .progress = progress};
+bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear,
+    const sbfi_target_displacements *wanted, sbfi_spring_factors *factors, sbfi_progress progress,
+    sbfi_arena *scratch) {
+  work w = {.statics = statics,
+      .linear = linear,
+      .displacements = wanted->displacements,
+      .scratch = scratch,
+      .progress = progress};
   trial best, tried;
   w.stated = sbfi_arena_copy(scratch, statics->stiffness, statics->network.spring_count, sizeof *w.stated);
   w.moved =
@@ -128,6 +132,6 @@ bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, c
   if (!sbfi_stiffness_descent(statics, linear, w.stated, wanted, &bounds, &factors->after,
           sbfi_progress_part(progress, 0.2, 1), scratch))
     return false;
-  take_means(&w, factors);
+  find_means(&w, factors);
   return true;
 }

@@ -18,7 +18,8 @@ typedef struct sbfi_spring_factors {
  * use only the small loads, each spring's own uses all targets. Multiplies the stiffnesses of `statics`,
  * in the order of the level's sets, and refreshes `linear`. False if memory runs out or the build is
  * cancelled. */
-bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted,
-    sbfi_spring_factors *factors, sbfi_progress progress, sbfi_arena *scratch);
+bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear,
+    const sbfi_target_displacements *target, sbfi_spring_factors *factors, sbfi_progress progress,
+    sbfi_arena *scratch);
 
 #endif

@@ -13,46 +13,47 @@ static const double smoothing = 0.1; /* blend per round */
 /* Limit of matrix blocks processed before a new round, so that no body takes many seconds, however badly
  * conditioned its equations are. */
 static const double max_visits = 3e8;
-enum { FEWEST_ROUNDS = 8, POINTS_FOR_ALL = 1000, MAX_WANTED = SBFI_MAX_LOADS + SBFI_PUSHES };
+enum { FEWEST_ROUNDS = 8, POINTS_FOR_ALL = 1000, MAX_TARGETS = SBFI_MAX_LOADS + SBFI_PUSHES };
 
 typedef struct work {
   sbfi_level_statics *statics;
   sbfi_linear_statics *linear;
-  const sbfi_wanted *wanted;
+  const sbfi_target_displacements *targets;
   const sbfi_factor_bounds *bounds;
   const float *stated; /* (elements) */
   float *values;       /* (elements) of the network */
   uint32_t element_count;
   bool springs;
-  double *forces;                                  /* (3 x level points) */
-  double *off;                                     /* (3 x surface points) m */
-  double *moved[MAX_WANTED], *adjoint[MAX_WANTED]; /* (3 x level points) */
-  double *factors, *gradient, *before, *steps;     /* (elements) */
-  float *best;                                     /* (elements) */
-  double *pinned_by;                               /* (level points) N/m, sum over its springs */
-  double max_pinned;                               /* N/m per kg */
-  double *sums, *counts;                           /* (level points) for smoothing */
-  double visits;                                   /* matrix blocks processed so far */
-  sbfi_progress progress;                          /* of the current round */
+  double *forces;                                    /* (3 x level points) */
+  double *off;                                       /* (3 x surface points) m */
+  double *moved[MAX_TARGETS], *adjoint[MAX_TARGETS]; /* (3 x level points) */
+  double *factors, *gradient, *before, *steps;       /* (elements) */
+  float *best;                                       /* (elements) */
+  double *pinned_by;                                 /* (level points) N/m, sum over its springs */
+  double max_pinned;                                 /* N/m per kg */
+  double *sums, *counts;                             /* (level points) for smoothing */
+  double visits;                                     /* matrix blocks processed so far */
+  sbfi_progress progress;                            /* of the current round */
 } work;
 
-static work begin(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted) {
+static work begin(
+    sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_target_displacements *targets) {
   bool springs = statics->network.tetrahedron_count == 0;
   return (work){.statics = statics,
       .linear = linear,
-      .wanted = wanted,
+      .targets = targets,
       .springs = springs,
       .values = springs ? statics->stiffness : statics->moduli,
       .element_count = springs ? statics->network.spring_count : statics->network.tetrahedron_count};
 }
 
 static uint32_t load_count(const work *w) {
-  return w->statics->load_count + (w->wanted->pushes ? SBFI_PUSHES : 0);
+  return w->statics->load_count + (w->targets->pushes ? SBFI_PUSHES : 0);
 }
 
-static const double *wanted_of(const work *w, uint32_t load) {
+static const double *target_of(const work *w, uint32_t load) {
   uint32_t gravities = w->statics->load_count;
-  return load < gravities ? w->wanted->gives[load] : w->wanted->pushed[load - gravities];
+  return load < gravities ? w->targets->displacements[load] : w->targets->pushed[load - gravities];
 }
 
 static void set_forces(const work *w, uint32_t load) {
@@ -60,7 +61,7 @@ static void set_forces(const work *w, uint32_t load) {
   if (load < gravities)
     sbfi_level_compute_forces(w->statics, load, 1, w->forces);
   else
-    sbfi_level_push(w->statics, w->wanted->pushes, load - gravities, w->forces);
+    sbfi_level_push(w->statics, w->targets->pushes, load - gravities, w->forces);
 }
 
 /* Zeros; each round starts from the previous solutions. */
@@ -100,10 +101,10 @@ static void solve(work *w, double fraction, double *displacements) {
  * displacements. Negative: the load is ignored. */
 static double mismatch(work *w, uint32_t load) {
   const sbfi_level_statics *s = w->statics;
-  const double *wanted = wanted_of(w, load);
+  const double *targets = target_of(w, load);
   size_t numbers = 3 * (size_t)s->network.point_count, surface = s->body->surface.positions.count;
   double size = 0, left = 0;
-  for (size_t i = 0; wanted && i < 3 * surface; i++) size += s->areas[i / 3] * wanted[i] * wanted[i];
+  for (size_t i = 0; targets && i < 3 * surface; i++) size += s->areas[i / 3] * targets[i] * targets[i];
   if (!(size > 0)) return -1;
   set_forces(w, load);
   solve(w, w->bounds->fraction, w->moved[load]);
@@ -113,7 +114,7 @@ static double mismatch(work *w, uint32_t load) {
     const sbf_vec4 by = s->embedded[i].weights;
     const double weights[4] = {by.x, by.y, by.z, by.w};
     for (size_t k = 0; k < 3; k++) {
-      double off = w->off[3 * i + k] - wanted[3 * i + k];
+      double off = w->off[3 * i + k] - targets[3 * i + k];
       left += s->areas[i] / size * off * off;
       for (int c = 0; c < 4; c++)
         w->forces[3 * (size_t)s->embedded[i].points.at[c] + k] += 2 * weights[c] * s->areas[i] / size * off;
@@ -190,13 +191,14 @@ static void slacken(const work *w) {
   const sbf_spring_network *n = &w->statics->network;
   add_pinned(w, w->values);
   for (uint32_t i = 0; i < n->spring_count; i++) {
-    double over = 1;
+    double excess = 1;
     for (int end = 0; end < 2; end++) {
       uint32_t point = n->ends[i].at[end];
-      if (n->masses[point] > 0) over = fmax(over, w->pinned_by[point] / (n->masses[point] * w->max_pinned));
+      if (n->masses[point] > 0)
+        excess = fmax(excess, w->pinned_by[point] / (n->masses[point] * w->max_pinned));
     }
-    if (!(over > 1)) continue;
-    w->factors[i] = fmax(w->factors[i] / over, w->bounds->min);
+    if (!(excess > 1)) continue;
+    w->factors[i] = fmax(w->factors[i] / excess, w->bounds->min);
     w->values[i] = (float)((double)w->stated[i] * w->factors[i]);
   }
 }
@@ -252,10 +254,10 @@ static void find_factors(const work *w) {
 }
 
 bool sbfi_stiffness_mismatch(const sbfi_level_statics *statics, sbfi_linear_statics *linear,
-    const sbfi_wanted *wanted, double *left, sbfi_arena *scratch) {
+    const sbfi_target_displacements *targets, double *left, sbfi_arena *scratch) {
   /* Does not write to the level. */
   static const sbfi_factor_bounds exact = {.fraction = 1e-3};
-  work w = begin((sbfi_level_statics *)(uintptr_t)statics, linear, wanted);
+  work w = begin((sbfi_level_statics *)(uintptr_t)statics, linear, targets);
   w.bounds = &exact;
   if (!reserve_points(&w, false, scratch)) return false;
   *left = evaluate(&w, false);
@@ -269,9 +271,9 @@ static uint32_t rounds_of(const work *w) {
 }
 
 bool sbfi_stiffness_descent(sbfi_level_statics *statics, sbfi_linear_statics *linear, const float *stated,
-    const sbfi_wanted *wanted, const sbfi_factor_bounds *bounds, double *left, sbfi_progress progress,
-    sbfi_arena *scratch) {
-  work w = begin(statics, linear, wanted);
+    const sbfi_target_displacements *targets, const sbfi_factor_bounds *bounds, double *left,
+    sbfi_progress progress, sbfi_arena *scratch) {
+  work w = begin(statics, linear, targets);
   const sbf_spring_network *n = &statics->network;
   w.stated = stated;
   w.bounds = bounds;

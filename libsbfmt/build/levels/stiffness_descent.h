@@ -13,11 +13,11 @@
 #include "build/levels/level_loads.h"
 
 /* Target displacements of a level (3 x surface points) m, NULL: the load is ignored. */
-typedef struct sbfi_wanted {
-  const double *const *gives;      /* under the small loads of 1 m/s^2, as in sbfi_level_solve_linear */
-  const sbfi_level_pushes *pushes; /* NULL: none */
-  const double *const *pushed;     /* (SBFI_PUSHES) under each push */
-} sbfi_wanted;
+typedef struct sbfi_target_displacements {
+  const double *const *displacements; /* under the small loads of 1 m/s^2, as in sbfi_level_solve_linear */
+  const sbfi_level_pushes *pushes;    /* NULL: none */
+  const double *const *pushed;        /* (SBFI_PUSHES) under each push */
+} sbfi_target_displacements;
 
 /* Bounds of factors. */
 typedef struct sbfi_factor_bounds {
@@ -32,13 +32,13 @@ typedef struct sbfi_factor_bounds {
  * integrated over the surface, relative to the target displacements. For the current network; `linear` is
  * up to date. False if memory runs out. */
 bool sbfi_stiffness_mismatch(const sbfi_level_statics *statics, sbfi_linear_statics *linear,
-    const sbfi_wanted *wanted, double *left, sbfi_arena *scratch);
+    const sbfi_target_displacements *target, double *left, sbfi_arena *scratch);
 
 /* Improves the moduli of `statics`, or the stiffnesses of a level of springs, and refreshes `linear`;
  * factors are relative to `stated` (elements) Pa or N/m. `*left` receives the final mismatch as above.
  * False if memory runs out or the build is cancelled. */
 bool sbfi_stiffness_descent(sbfi_level_statics *statics, sbfi_linear_statics *linear, const float *stated,
-    const sbfi_wanted *wanted, const sbfi_factor_bounds *bounds, double *left, sbfi_progress progress,
-    sbfi_arena *scratch);
+    const sbfi_target_displacements *target, const sbfi_factor_bounds *bounds, double *left,
+    sbfi_progress progress, sbfi_arena *scratch);
 
 #endif
