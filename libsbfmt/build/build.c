@@ -227,14 +227,14 @@ static sbf_status hash_source(sbfi_build *b) {
   return SBF_OK;
 }
 
-static void take_finding(void *user, const sbf_diagnostic *diagnostic) {
+static void store_finding(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
 /* Extreme sizes and moduli can give numbers that no file may contain. */
 static sbf_status check_made(sbfi_build *b) {
   sbf_diagnostic diagnostic;
-  if (sbf_asset_check(b->asset, take_finding, &diagnostic, 1) == 0) return SBF_OK;
+  if (sbf_asset_check(b->asset, store_finding, &diagnostic, 1) == 0) return SBF_OK;
   if (diagnostic.code == SBF_CODE_OUT_OF_MEMORY) return sbfi_build_no_memory(b);
   sbf_status status = sbfi_diagnose(b->error, SBF_CODE_VALUE_NOT_FINITE,
       "what the build makes here is no sound number (%.200s): look at the source's sizes and attributes",

@@ -89,12 +89,12 @@ void sbfi_build_settings_write(const sbf_build_options *options, char text[SBFI_
   }
 }
 
-static bool take_flag(sbfi_span value, bool *without) {
+static bool read_flag(sbfi_span value, bool *without) {
   *without = sbfi_span_is(value, "false");
   return *without || sbfi_span_is(value, "true");
 }
 
-static bool take_interior(sbfi_span value, sbf_build_interior *interior) {
+static bool read_interior(sbfi_span value, sbf_build_interior *interior) {
   for (int i = 0; i < SBFI_BUILD_INTERIOR_COUNT; i++)
     if (sbfi_span_is(value, interior_words[i])) {
       *interior = (sbf_build_interior)i;
@@ -103,25 +103,25 @@ static bool take_interior(sbfi_span value, sbf_build_interior *interior) {
   return false;
 }
 
-static bool take_number(sbfi_span value, uint32_t *number) {
+static bool read_number(sbfi_span value, uint32_t *number) {
   return sbfi_parse_u32(value.at, value.length, number) == SBFI_NUMBER_READ && *number > 0;
 }
 
-static bool take(setting_kind kind, sbfi_span value, void *field) {
+static bool read_setting(setting_kind kind, sbfi_span value, void *field) {
   uint32_t number;
   switch (kind) {
   case UNLESS:
   case WITHOUT:
-    return take_flag(value, field);
+    return read_flag(value, field);
   case INTERIOR:
-    return take_interior(value, field);
+    return read_interior(value, field);
   case SECTIONS:
     *(sbf_build_sections *)field = SBF_BUILD_SECTIONS_NONE;
     return sbfi_span_is(value, "none");
   case COUNT:
-    return take_number(value, field);
+    return read_number(value, field);
   case MICROMETRES:
-    if (!take_number(value, &number)) return false;
+    if (!read_number(value, &number)) return false;
     *(double *)field = number / 1e6;
     return true;
   }
@@ -137,7 +137,7 @@ bool sbfi_build_settings_read(const char *text, sbf_build_options *options) {
     sbfi_span name = {word.at, equals}, value = {word.at + equals + 1, word.length - equals - 1};
     int i = 0;
     while (i < SETTING_COUNT && !sbfi_span_is(name, settings[i].name)) i++;
-    if (i == SETTING_COUNT || !take(settings[i].kind, value, (char *)options + settings[i].offset))
+    if (i == SETTING_COUNT || !read_setting(settings[i].kind, value, (char *)options + settings[i].offset))
       return false;
   }
   return true;

@@ -1,5 +1,5 @@
 /* What a bone holds of a lattice does not turn, however coarse the lattice is and in how many pieces. */
-#include "build/lattice/lattice_hold.h"
+#include "build/lattice/lattice_piece_pins.h"
 
 #include <math.h>
 #include <string.h>
@@ -49,7 +49,7 @@ static uint32_t hold(const uint8_t *taken, double width, uint32_t *core, uint32_
   sbf_level_init(&level);
   level.positions = (sbf_vec3_list){positions, 8};
   level.lattice.tetrahedra = (sbf_uint4_list){corners, 2};
-  ck_assert(sbfi_lattice_hold_pieces(&level, depths2, taken, width, core, &count, &arena));
+  ck_assert(sbfi_lattice_pin_pieces(&level, depths2, taken, width, core, &count, &arena));
   return count;
 }
 

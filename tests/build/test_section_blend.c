@@ -32,10 +32,10 @@ static double smoothed(float slope, float authored_slope) {
   ck_assert_uint_eq(left, 0);
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
     double weights[2] = {0, 0}, old[2] = {0, 0};
-    for (uint32_t h = skin.hold_begins[p]; h < skin.hold_begins[p + 1]; h++)
-      weights[skin.holds[h].bone] += (double)skin.holds[h].weight;
-    for (uint32_t h = before.hold_begins[p]; h < before.hold_begins[p + 1]; h++)
-      old[before.holds[h].bone] += (double)before.holds[h].weight;
+    for (uint32_t h = skin.bone_weight_begins[p]; h < skin.bone_weight_begins[p + 1]; h++)
+      weights[skin.bone_weights[h].bone] += (double)skin.bone_weights[h].weight;
+    for (uint32_t h = before.bone_weight_begins[p]; h < before.bone_weight_begins[p + 1]; h++)
+      old[before.bone_weights[h].bone] += (double)before.bone_weights[h].weight;
     ck_assert_double_eq_tol(weights[0] + weights[1], 1, 1e-5);
     max = fmax(max, fabs(weights[0] - old[0]));
     /* A smoothed step still goes over from one bone to the other about the joint. */
@@ -103,10 +103,10 @@ START_TEST(a_step_on_a_fine_skin_becomes_a_slope)
   /* As on the coarse tube: the slope is no longer than it has to be. */
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
     double sum = 0;
-    for (uint32_t h = skin.hold_begins[p]; h < skin.hold_begins[p + 1]; h++) {
-      sum += (double)skin.holds[h].weight;
-      if (skin.mesh.positions.at[p].y < 0.5f) ck_assert_uint_eq(skin.holds[h].bone, 0);
-      if (skin.mesh.positions.at[p].y > 1.5f) ck_assert_uint_eq(skin.holds[h].bone, 1);
+    for (uint32_t h = skin.bone_weight_begins[p]; h < skin.bone_weight_begins[p + 1]; h++) {
+      sum += (double)skin.bone_weights[h].weight;
+      if (skin.mesh.positions.at[p].y < 0.5f) ck_assert_uint_eq(skin.bone_weights[h].bone, 0);
+      if (skin.mesh.positions.at[p].y > 1.5f) ck_assert_uint_eq(skin.bone_weights[h].bone, 1);
     }
     ck_assert_double_eq_tol(sum, 1, 1e-5);
   }
@@ -131,10 +131,11 @@ START_TEST(the_order_of_polygons_changes_nothing)
     sbf_asset_free(asset);
   }
   uint32_t points = skins[0].mesh.positions.count;
-  for (uint32_t p = 0; p <= points; p++) ck_assert_uint_eq(skins[0].hold_begins[p], skins[1].hold_begins[p]);
-  for (uint32_t h = 0; h < skins[0].hold_begins[points]; h++) {
-    ck_assert_uint_eq(skins[0].holds[h].bone, skins[1].holds[h].bone);
-    ck_assert_float_eq(skins[0].holds[h].weight, skins[1].holds[h].weight);
+  for (uint32_t p = 0; p <= points; p++)
+    ck_assert_uint_eq(skins[0].bone_weight_begins[p], skins[1].bone_weight_begins[p]);
+  for (uint32_t h = 0; h < skins[0].bone_weight_begins[points]; h++) {
+    ck_assert_uint_eq(skins[0].bone_weights[h].bone, skins[1].bone_weights[h].bone);
+    ck_assert_float_eq(skins[0].bone_weights[h].weight, skins[1].bone_weights[h].weight);
   }
   sbfi_arena_free(&arena);
 }
@@ -161,7 +162,7 @@ START_TEST(fixed_points_keep_their_weights_as_long_as_others_can_give_way)
     ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, fixed, &left, &arena));
     ck_assert_uint_eq(left, 0);
     for (uint32_t p = 0; p < points; p++)
-      changed += fixed[p] && skin.hold_begins[p + 1] - skin.hold_begins[p] != 1;
+      changed += fixed[p] && skin.bone_weight_begins[p + 1] - skin.bone_weight_begins[p] != 1;
     ck_assert(both ? changed > 0 : changed == 0);
     sbfi_arena_free(&arena);
     sbf_asset_free(asset);
@@ -188,7 +189,7 @@ START_TEST(what_no_soft_bone_holds_keeps_its_weights)
   ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, soft, NULL, &left, &arena));
   ck_assert_uint_eq(left, 0);
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
-    uint32_t bones = skin.hold_begins[p + 1] - skin.hold_begins[p];
+    uint32_t bones = skin.bone_weight_begins[p + 1] - skin.bone_weight_begins[p];
     if (skin.mesh.positions.at[p].y > 1.5f) ck_assert_uint_eq(bones, 1);
     slope += bones > 1;
   }

@@ -49,8 +49,8 @@ START_TEST(a_speck_goes_to_its_surroundings)
   const skinned_limb of = {.bones = 2, .sides = 12, .rings_a_bone = 8, .radius = 0.2f};
   label(&of);
   /* One vertex in the middle of the lower bone's part belongs to the upper one. */
-  sbfi_hold *holds = skin.holds + skin.hold_begins[12 * 4 + 3];
-  ck_assert_uint_eq(skin.hold_begins[12 * 4 + 4] - skin.hold_begins[12 * 4 + 3], 1);
+  sbfi_bone_weight *holds = skin.bone_weights + skin.bone_weight_begins[12 * 4 + 3];
+  ck_assert_uint_eq(skin.bone_weight_begins[12 * 4 + 4] - skin.bone_weight_begins[12 * 4 + 3], 1);
   ck_assert_uint_eq(holds[0].bone, 0);
   holds[0].bone = 1;
   ck_assert(sbfi_section_labels_make(labels, &skin, &t, asset->bones.count, &arena));

@@ -42,9 +42,9 @@ static float min_fraction(bool on_a_leg, float height, uint32_t *marked) {
   *marked = 0;
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
     float own = 0, sum = 0;
-    for (uint32_t h = skin.hold_begins[p]; h < skin.hold_begins[p + 1]; h++) {
-      sum += skin.holds[h].weight;
-      if (skin.holds[h].bone == 0) own += skin.holds[h].weight;
+    for (uint32_t h = skin.bone_weight_begins[p]; h < skin.bone_weight_begins[p + 1]; h++) {
+      sum += skin.bone_weights[h].weight;
+      if (skin.bone_weights[h].bone == 0) own += skin.bone_weights[h].weight;
     }
     ck_assert_float_eq_tol(sum, 1, 1e-5f);
     *marked += soles[p];

@@ -48,7 +48,7 @@ static void make_mesh(void) {
 }
 
 static void repair(void) {
-  const sbfi_bone_reach reach = {.shell_holds_bone = holds};
+  const sbfi_bone_reach reach = {.shell_contains_bone = holds};
   figures = (sbfi_weights_figures){0};
   ck_assert(sbfi_shell_weights_repair(&mesh, segments, BONES, &reach, weights, &figures, &arena));
 }

@@ -40,7 +40,8 @@ START_TEST(a_seam_is_sewn)
     ck_assert_uint_eq(skin.points_of_mesh[0][9 * r], skin.points_of_mesh[0][9 * r + 8]);
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
     float sum = 0;
-    for (uint32_t h = skin.hold_begins[p]; h < skin.hold_begins[p + 1]; h++) sum += skin.holds[h].weight;
+    for (uint32_t h = skin.bone_weight_begins[p]; h < skin.bone_weight_begins[p + 1]; h++)
+      sum += skin.bone_weights[h].weight;
     ck_assert_float_eq_tol(sum, 1, 1e-6f);
   }
 }

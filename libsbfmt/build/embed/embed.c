@@ -324,7 +324,7 @@ static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list
 }
 
 /* Distributes the parts of a mesh to their bodies' levels, body by body. */
-static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions, sbfi_progress progress) {
+static bool distribute_mesh(work *w, int32_t mesh, const sbf_vec3_list *positions, sbfi_progress progress) {
   uint32_t bodies = w->asset->soft_bodies.count, count = (uint32_t)w->contributions.count;
   const weighted_point *contributions = w->contributions.at;
   uint32_t *begins = sbfi_arena_allocate(w->scratch, (size_t)bodies + 2, sizeof *begins);
@@ -384,7 +384,7 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter, sbfi_p
   if (!by_bones &&
       !(by_skin ? distribute_by_skin(w, mesh, skin, mixes, sharing) : distribute_whole(w, mesh, sharing)))
     return false;
-  if (!hand_out(w, (int32_t)number, &mesh->mesh.positions, sbfi_progress_part(progress, 0.3, 1)))
+  if (!distribute_mesh(w, (int32_t)number, &mesh->mesh.positions, sbfi_progress_part(progress, 0.3, 1)))
     return false;
   sbf_diagnostic diagnostic;
   if (w->contributions.count == 0 && !(mesh->skin && is_rigid_by_recipe(w->asset, mesh->skin))) {

@@ -74,7 +74,7 @@ typedef struct ring_list {
 } ring_list;
 
 /* Reads the facets of a finished hull. */
-static bool take_rings(
+static bool read_rings(
     qhT *qh, const sbf_vec3 *points, uint32_t count, ring_list *rings, sbfi_arena *scratch) {
   facetT *facet;
   vertexT *vertex, **vertexp;
@@ -99,14 +99,14 @@ static bool take_rings(
 }
 
 /* Catches qhull's errors, which outside qh_new_qhull would end the process. */
-static sbfi_hull_outcome take_guarded(
+static sbfi_hull_outcome read_rings_guarded(
     qhT *qh, const sbf_vec3 *points, uint32_t count, ring_list *rings, sbfi_arena *scratch) {
   if (setjmp(qh->errexit)) {
     qh->NOerrexit = True;
     return SBFI_HULL_FLAT;
   }
   qh->NOerrexit = False;
-  bool good = take_rings(qh, points, count, rings, scratch);
+  bool good = read_rings(qh, points, count, rings, scratch);
   qh->NOerrexit = True;
   return good ? SBFI_HULL_MADE : SBFI_HULL_NO_MEMORY;
 }
@@ -161,7 +161,7 @@ sbfi_hull_outcome sbfi_hull_make(
   ring_list rings = {NULL, 0, 0};
   sbfi_hull_outcome outcome = trouble == qh_ERRmem ? SBFI_HULL_NO_MEMORY : SBFI_HULL_FLAT;
   if (!trouble) {
-    outcome = take_guarded(qh, points, count, &rings, scratch);
+    outcome = read_rings_guarded(qh, points, count, &rings, scratch);
     if (outcome == SBFI_HULL_MADE && !write_hull(&rings, points, count, asset, hull, scratch))
       outcome = SBFI_HULL_NO_MEMORY;
   }

@@ -20,7 +20,7 @@ typedef struct work {
   side *sides;
   uint32_t *side_of; /* (3 * triangle_count) */
   uint32_t side_count;
-  uint8_t *turned; /* (triangle_count) */
+  uint8_t *flipped; /* (triangle_count) */
 } work;
 
 static uint64_t mixed(uint64_t key) {
@@ -139,7 +139,7 @@ static uint32_t walk_piece(const work *w, uint32_t first, uint8_t *facing, uint3
   return count;
 }
 
-static bool turn_patches(work *w) {
+static bool flip_pieces(work *w) {
   sbfi_soup *soup = w->soup;
   uint8_t *facing = sbfi_arena_allocate(w->arena, soup->triangle_count, 1);
   uint32_t *waiting = sbfi_arena_allocate(w->arena, soup->triangle_count, sizeof *waiting);
@@ -153,7 +153,7 @@ static bool turn_patches(work *w) {
     uint8_t wrong = areas[1] <= areas[0];
     for (uint32_t i = 0; i < count; i++) facing[waiting[i]] = facing[waiting[i]] == wrong;
   }
-  w->turned = facing;
+  w->flipped = facing;
   for (uint32_t t = 0; t < soup->triangle_count; t++) {
     if (!facing[t]) continue;
     uint32_t swap = soup->triangles[t][1];
@@ -170,7 +170,7 @@ static uint32_t balance_sides(const work *w) {
   const sbfi_soup *soup = w->soup;
   uint32_t missing = 0;
   for (uint32_t use = 0; use < 3 * soup->triangle_count; use++) {
-    uint32_t now = w->turned[use / 3] ? use / 3 * 3 + indices[use % 3] : use;
+    uint32_t now = w->flipped[use / 3] ? use / 3 * 3 + indices[use % 3] : use;
     side *s = &w->sides[w->side_of[use]];
     s->ends[0] = soup->triangles[now / 3][now % 3];
     s->ends[1] = soup->triangles[now / 3][(now + 1) % 3];
@@ -247,7 +247,7 @@ bool sbfi_soup_make(sbfi_soup *soup, const sbf_polygon_mesh *mesh, sbfi_arena *a
   if (!weld(&w, &mesh->positions, new_from_old)) return false;
   fan(soup, mesh, new_from_old);
   if (soup->triangle_count == 0) return true;
-  if (!find_sides(&w) || !turn_patches(&w)) return false;
+  if (!find_sides(&w) || !flip_pieces(&w)) return false;
   uint32_t missing = balance_sides(&w);
   return missing == 0 || cap_holes(&w, missing);
 }

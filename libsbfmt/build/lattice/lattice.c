@@ -10,7 +10,7 @@
 
 /* Cuts of edges with different ends: of several, the one nearest to the outer end, so that the whole surface
  * is inside. */
-static void lay_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_lattice_cuts *cuts) {
+static void store_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_lattice_cuts *cuts) {
   const sbfi_lattice_crossing *at = crossings->at;
   for (size_t i = 0; i < crossings->count; i++) {
     size_t slot = sbfi_lattice_cuts_slot(cuts, at[i].edge);
@@ -72,7 +72,7 @@ static bool stuff(sbfi_lattice *lattice, const sbfi_lattice_grid *grid, const sb
     const sbfi_array *crossings, uint8_t *inside, sbfi_arena *scratch) {
   sbfi_lattice_cuts cuts;
   if (!sbfi_lattice_cuts_find(&cuts, grid, inside, scratch)) return false;
-  lay_cuts(crossings, inside, &cuts);
+  store_cuts(crossings, inside, &cuts);
   if (lattice->forced_count > 0) widen_forced(grid, inside, &cuts);
   lattice->dim_count = bisect_cuts(grid, winding, inside, &cuts);
   for (uint32_t n = 0; n < grid->node_count && lattice->forced_count > 0; n++)
@@ -101,7 +101,7 @@ static sbfi_lattice_outcome stuff_without_hinges(sbfi_lattice *lattice, const sb
 }
 
 /* Copies the lattice without its scratch memory. */
-static bool keep(sbfi_lattice *lattice, sbfi_arena *arena) {
+static bool copy_lattice(sbfi_lattice *lattice, sbfi_arena *arena) {
   sbfi_tetrahedra *made = &lattice->made;
   made->positions = sbfi_arena_copy(arena, made->positions, made->point_count, sizeof *made->positions);
   made->at = sbfi_arena_copy(arena, made->at, made->count, sizeof *made->at);
@@ -127,7 +127,7 @@ static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *wind
   sbfi_lattice_outcome outcome =
       stuff_without_hinges(lattice, &grid, winding, crossings, inside, progress, scratch);
   if (outcome != SBFI_LATTICE_MADE) return outcome;
-  if (!keep(lattice, arena)) return SBFI_LATTICE_NO_MEMORY;
+  if (!copy_lattice(lattice, arena)) return SBFI_LATTICE_NO_MEMORY;
   return sbfi_progress_report(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
 }
 
@@ -146,7 +146,7 @@ sbfi_lattice_outcome sbfi_lattice_make(sbfi_lattice *lattice, const sbfi_winding
 }
 
 /* Ratio of the count to the requested one, at least 1. */
-static double misses(uint32_t count, uint32_t elements) {
+static double count_ratio(uint32_t count, uint32_t elements) {
   double ratio = (count + 1.0) / (elements + 1.0);
   return ratio < 1 ? 1 / ratio : ratio;
 }
@@ -198,24 +198,24 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
   if (enclosed > 0) cell = cube_root(TETRAHEDRA_OF_CELL * enclosed / elements);
   double best = INFINITY;
   sbfi_lattice kept = *lattice;
-  sbfi_arena trial, kept_in;
-  sbfi_arena_init(&kept_in, &arena->allocator, 0);
+  sbfi_arena trial, best_memory;
+  sbfi_arena_init(&best_memory, &arena->allocator, 0);
   for (int round = 0; round < ROUNDS && best > 1 + tolerance; round++) {
     sbfi_progress part = sbfi_progress_part(progress, (double)round / ROUNDS, (round + 1.0) / ROUNDS);
     sbfi_arena_init(&trial, &arena->allocator, 0);
     sbfi_lattice_outcome outcome = sbfi_lattice_make(lattice, winding, cell, part, &trial);
     uint32_t count = lattice->made.count;
-    bool is_best = outcome == SBFI_LATTICE_MADE && misses(count, elements) < best;
+    bool is_best = outcome == SBFI_LATTICE_MADE && count_ratio(count, elements) < best;
     if (is_best) {
-      best = misses(count, elements);
+      best = count_ratio(count, elements);
       kept = *lattice;
-      sbfi_arena_free(&kept_in);
-      kept_in = trial;
+      sbfi_arena_free(&best_memory);
+      best_memory = trial;
     } else {
       sbfi_arena_free(&trial);
     }
     if (outcome != SBFI_LATTICE_MADE) {
-      sbfi_arena_free(&kept_in);
+      sbfi_arena_free(&best_memory);
       return outcome;
     }
     if (count == 0 && is_hollow(soup, cell, elements)) break;
@@ -224,8 +224,8 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
     cell *= cube_root(ratio < 1.0 / 64 ? 1.0 / 64 : ratio > 64 ? 64 : ratio);
   }
   *lattice = kept;
-  bool good = keep(lattice, arena);
-  sbfi_arena_free(&kept_in);
+  bool good = copy_lattice(lattice, arena);
+  sbfi_arena_free(&best_memory);
   if (!good) return SBFI_LATTICE_NO_MEMORY;
   return sbfi_progress_report(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
 }

@@ -33,8 +33,8 @@ static sbfi_lattice_outcome make_lattice(sbfi_lattice *lattice, const sbf_soft_b
     if (outcome != SBFI_LATTICE_MADE) return outcome;
     if (!sbfi_lattice_thinness(thinness, &body->surface, lattice->cell, scratch))
       return SBFI_LATTICE_NO_MEMORY;
-    bool wished = recipe->cell > 0 || recipe->elements > 0;
-    if (wished || !is_thin(thinness) || 2 * elements > max) return outcome;
+    bool is_requested = recipe->cell > 0 || recipe->elements > 0;
+    if (is_requested || !is_thin(thinness) || 2 * elements > max) return outcome;
   }
 }
 

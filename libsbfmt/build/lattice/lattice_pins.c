@@ -7,7 +7,7 @@
 #include "build/geometry/topology.h"
 #include "build/geometry/triangle_tree.h"
 #include "build/lattice/lattice_core.h"
-#include "build/lattice/lattice_hold.h"
+#include "build/lattice/lattice_piece_pins.h"
 #include "build/sections/level_pins.h"
 
 /* Fraction of the cell: distance within which a point is on the surface. */
@@ -109,7 +109,7 @@ static float weight_between(const footing *on, const float *at_source) {
 }
 
 /* Transfers the set to the level's points. */
-static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
+static bool map_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   uint32_t sources = w->body->surface.positions.count + w->body->interior.count;
   uint32_t points = w->level->positions.count, count = 0;
   float *at_source = sbfi_arena_allocate(w->scratch, (size_t)sources + 1, sizeof *at_source);
@@ -169,16 +169,16 @@ static bool find_core(work *w, uint32_t **core, uint32_t *count) {
     }
     if (is_wide(w, *core, *count)) break;
   }
-  return sbfi_lattice_hold_pieces(w->level, w->depths2, w->taken, min_width(w), *core, count, w->scratch);
+  return sbfi_lattice_pin_pieces(w->level, w->depths2, w->taken, min_width(w), *core, count, w->scratch);
 }
 
-static bool carry_attachment(work *w, sbf_pin_set *to, const sbf_attachment *from) {
+static bool map_attachment(work *w, sbf_pin_set *to, const sbf_attachment *from) {
   sbf_pin_set set;
   sbf_pin_set_init(&set);
   set.name = from->name;
   set.rigid_body = from->rigid_body;
   set.points = from->points;
-  return carry_set(w, to, &set);
+  return map_set(w, to, &set);
 }
 
 static bool make(work *w, int32_t derivation) {
@@ -189,12 +189,12 @@ static bool make(work *w, int32_t derivation) {
   uint32_t count = 0, hull_count = 0, core_count = 0, *core = NULL;
   if (!sets || !by_hull) return false;
   for (uint32_t i = 0; i < body->pins.count; i++)
-    if (!carry_set(w, &sets[count++], &body->pins.at[i])) return false;
+    if (!map_set(w, &sets[count++], &body->pins.at[i])) return false;
   for (uint32_t i = 0; i < body->attachments.count; i++) {
     const sbf_attachment *rule = &body->attachments.at[i];
     if (rule->rule != SBF_ATTACHMENT_RULE_EXPLICIT)
       by_hull[hull_count++] = *rule;
-    else if (!carry_attachment(w, &sets[count++], rule))
+    else if (!map_attachment(w, &sets[count++], rule))
       return false;
   }
   for (uint32_t i = 0; i < count; i++) sets[i].derived = derivation;
@@ -217,7 +217,7 @@ bool sbfi_lattice_pins_map(sbf_level *level, const sbf_soft_body *body, uint8_t 
       !find_depths(&w))
     return false;
   for (uint32_t i = 0; i < body->pins.count; i++) {
-    if (!carry_set(&w, &sets[count], &body->pins.at[i])) return false;
+    if (!map_set(&w, &sets[count], &body->pins.at[i])) return false;
     sets[count].derived = derivation;
     count += sets[count].points.count > 0;
   }

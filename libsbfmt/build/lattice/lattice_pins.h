@@ -15,7 +15,7 @@
  *
  * "interior", if the body has a bone: the other points at least half as deep below the surface as the body is
  * thick around them (lattice_core.h), up to the tip of a tail. If these are on a line, it has more of them.
- * In every piece of the lattice it pins three points that are not (lattice_hold.h).
+ * In every piece of the lattice it pins three points that are not (lattice_piece_pins.h).
  *
  * A set for each attachment by a hull: the points inside the hull that no earlier set pins. False if memory
  * runs out. */

@@ -252,7 +252,7 @@ static bool is_positive(const sbf_vec3 *positions, const uint32_t at[4]) {
 }
 
 /* Numbers the points in the order of the tetrahedra. */
-static bool hand_over(work *w, sbfi_tetrahedra *made, sbfi_arena *arena, sbfi_arena *scratch) {
+static bool number_points(work *w, sbfi_tetrahedra *made, sbfi_arena *arena, sbfi_arena *scratch) {
   const sbfi_d3 *points = w->points.at;
   const sbf_uint4 *from = w->tetrahedra.at;
   size_t count = w->tetrahedra.count, point_count = w->points.count;
@@ -294,7 +294,7 @@ bool sbfi_lattice_stuff(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_lat
   sbfi_array_init(&w.tetrahedra, &scratch->allocator, sizeof(sbf_uint4));
   warp_all(&w);
   if (w.good) fill_all(&w);
-  bool good = w.good && hand_over(&w, made, arena, scratch);
+  bool good = w.good && number_points(&w, made, arena, scratch);
   sbfi_array_free(&w.points);
   sbfi_array_free(&w.tetrahedra);
   return good;

@@ -83,30 +83,30 @@ static bool split_by_colors(splitting *s, const sbf_render_mesh *mesh) {
 }
 
 /* Bone of greatest weight at each point, the first if equal; UINT32_MAX: none. */
-static void find_holders(uint32_t *holders, const sbf_render_mesh *mesh) {
+static void find_dominant_bones(uint32_t *dominant_bones, const sbf_render_mesh *mesh) {
   const sbf_skin *skin = mesh->skin;
   for (uint32_t p = 0, i = 0; p < skin->influence_counts.count; p++) {
     float max = 0;
-    holders[p] = UINT32_MAX;
+    dominant_bones[p] = UINT32_MAX;
     for (uint32_t left = skin->influence_counts.at[p]; left > 0; left--, i++)
       if (skin->weights.at[i] > max) {
         max = skin->weights.at[i];
-        holders[p] = skin->bones.at[i];
+        dominant_bones[p] = skin->bones.at[i];
       }
   }
 }
 
 /* Bone of most of a polygon's corners, the first if equal; for a very large polygon that of its first
  * corner. */
-static uint32_t holder_of_polygon(const uint32_t *holders, const uint32_t *points, uint32_t size) {
-  uint32_t best = holders[points[0]], max = 0;
+static uint32_t dominant_bone_of(const uint32_t *dominant_bones, const uint32_t *points, uint32_t size) {
+  uint32_t best = dominant_bones[points[0]], max = 0;
   if (size > LONG_POLYGON) return best;
   for (uint32_t k = 0; k < size; k++) {
     uint32_t same = 0;
-    for (uint32_t o = 0; o < size; o++) same += holders[points[o]] == holders[points[k]];
+    for (uint32_t o = 0; o < size; o++) same += dominant_bones[points[o]] == dominant_bones[points[k]];
     if (same > max) {
       max = same;
-      best = holders[points[k]];
+      best = dominant_bones[points[k]];
     }
     if (2 * max > size) break;
   }
@@ -116,13 +116,15 @@ static uint32_t holder_of_polygon(const uint32_t *holders, const uint32_t *point
 static bool split_by_bones(splitting *s, const sbf_render_mesh *mesh) {
   const sbf_polygon_mesh *m = &mesh->mesh;
   if (!mesh->skin || !mesh->skin->influence_counts.count) return true;
-  uint32_t *holders = sbfi_arena_allocate(s->arena, (size_t)m->positions.count + 1, sizeof *holders);
+  uint32_t *dominant_bones =
+      sbfi_arena_allocate(s->arena, (size_t)m->positions.count + 1, sizeof *dominant_bones);
   uint32_t *of_corner = sbfi_arena_allocate(s->arena, (size_t)s->corner_count + 1, sizeof *of_corner);
-  if (!holders || !of_corner) return false;
-  find_holders(holders, mesh);
+  if (!dominant_bones || !of_corner) return false;
+  find_dominant_bones(dominant_bones, mesh);
   for (uint32_t p = 0, first = 0; p < m->polygon_sizes.count; first += m->polygon_sizes.at[p++]) {
-    uint32_t holder = holder_of_polygon(holders, m->polygon_points.at + first, m->polygon_sizes.at[p]);
-    for (uint32_t k = 0; k < m->polygon_sizes.at[p]; k++) of_corner[first + k] = holder;
+    uint32_t dominant_bone =
+        dominant_bone_of(dominant_bones, m->polygon_points.at + first, m->polygon_sizes.at[p]);
+    for (uint32_t k = 0; k < m->polygon_sizes.at[p]; k++) of_corner[first + k] = dominant_bone;
   }
   return split(s, key_of_number, of_corner);
 }

@@ -28,7 +28,7 @@ static bool is_fixed(const sbfi_blend_surface *s, uint32_t point) {
 }
 
 /* Creates a cluster of a point and its unassigned neighbours. */
-static void take_cluster(clusters *c, uint32_t first, uint32_t *next) {
+static void make_cluster(clusters *c, uint32_t first, uint32_t *next) {
   const sbfi_blend_surface *s = c->fine;
   uint32_t begin = *next;
   c->begins[c->count] = begin;
@@ -54,7 +54,7 @@ static bool make_clusters(clusters *c, sbfi_arena *arena) {
   if (!c->of_point || !c->begins || !c->members) return false;
   for (uint32_t p = 0; p < s->point_count; p++) c->of_point[p] = NO_CLUSTER;
   for (uint32_t p = 0; p < s->point_count; p++)
-    if (c->of_point[p] == NO_CLUSTER && s->begins[p + 1] > s->begins[p]) take_cluster(c, p, &next);
+    if (c->of_point[p] == NO_CLUSTER && s->begins[p + 1] > s->begins[p]) make_cluster(c, p, &next);
   c->begins[c->count] = next;
   return true;
 }
@@ -68,7 +68,7 @@ static bool add_row(row_sum *sum, const sbfi_blend_row *row, double factor) {
 }
 
 /* Converts the sum to a row: drops negligible and negative weights, normalizes, and resets the sum. */
-static bool take_row(row_sum *sum, sbfi_blend_row *to, sbfi_arena *arena) {
+static bool finish_row(row_sum *sum, sbfi_blend_row *to, sbfi_arena *arena) {
   sbfi_blend_weight *at = sum->weights.at;
   uint32_t count = (uint32_t)sum->weights.count, merged = 0, kept = 0;
   double total = 0;
@@ -105,7 +105,7 @@ static sbfi_blend_row *mean_rows(
     double members = c->begins[i + 1] - c->begins[i];
     for (uint32_t m = c->begins[i]; m < c->begins[i + 1]; m++)
       if (!add_row(sum, &from[c->members[m]], 1 / members)) return NULL;
-    if (!take_row(sum, &rows[i], arena)) return NULL;
+    if (!finish_row(sum, &rows[i], arena)) return NULL;
   }
   return rows;
 }
@@ -174,7 +174,7 @@ static bool correct_point(const clusters *c, const sbfi_blend_surface *coarse, c
     }
   if (!any) return true;
   s->changed[point] = 1;
-  return add_row(sum, &s->rows[point], 1) && take_row(sum, &s->rows[point], arena);
+  return add_row(sum, &s->rows[point], 1) && finish_row(sum, &s->rows[point], arena);
 }
 
 static bool relax_coarse(sbfi_blend_surface *surface, const clusters *c, row_sum *sum, sbfi_arena *arena) {

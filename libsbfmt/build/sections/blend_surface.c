@@ -40,14 +40,14 @@ static sbfi_d3 axis_of(sbf_quat r, int axis) {
   return (sbfi_d3){2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
 }
 
-static void fill_turns(sbfi_blend_joint *joint, const sbf_bone *bone) {
+static void fill_rotations(sbfi_blend_joint *joint, const sbf_bone *bone) {
   for (int pose = 0; pose < SBFI_BLEND_POSES; pose++) {
     sbfi_d3 a = axis_of(bone->rotation, pose % 3);
     double sine = pose < 3 ? SINE : -SINE, v[3] = {a.x, a.y, a.z};
     const double k[3][3] = {{0, -a.z, a.y}, {a.z, 0, -a.x}, {-a.y, a.x, 0}};
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)
-        joint->turns[pose][i][j] = (COSINE - 1) * (i == j) + sine * k[i][j] + (1 - COSINE) * v[i] * v[j];
+        joint->rotations[pose][i][j] = (COSINE - 1) * (i == j) + sine * k[i][j] + (1 - COSINE) * v[i] * v[j];
   }
 }
 
@@ -56,7 +56,7 @@ sbfi_blend_joint *sbfi_blend_joints_make(const sbf_bone_list *bones, sbfi_arena 
   for (uint32_t b = 0; joints && b < bones->count; b++) {
     if (bones->at[b].parent == SBF_NONE) continue;
     joints[b].head = sbfi_d3_of(bones->at[b].head);
-    fill_turns(&joints[b], &bones->at[b]);
+    fill_rotations(&joints[b], &bones->at[b]);
   }
   return joints;
 }
@@ -105,7 +105,7 @@ bool sbfi_blend_surface_index(sbfi_blend_surface *s, sbfi_arena *arena) {
   return true;
 }
 
-static sbfi_d3 turned(const double m[3][3], sbfi_d3 p) {
+static sbfi_d3 transform(const double m[3][3], sbfi_d3 p) {
   return (sbfi_d3){m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z,
       m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z, m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z};
 }
@@ -115,8 +115,8 @@ static sbfi_d3 moved_normal(
     const sbfi_blend_joint *c, int pose, const sbfi_d3 corners[3], const double fractions[3]) {
   sbfi_d3 at[3];
   for (int k = 0; k < 3; k++)
-    at[k] = sbfi_d3_add(
-        corners[k], sbfi_d3_scale(turned(c->turns[pose], sbfi_d3_sub(corners[k], c->head)), fractions[k]));
+    at[k] = sbfi_d3_add(corners[k],
+        sbfi_d3_scale(transform(c->rotations[pose], sbfi_d3_sub(corners[k], c->head)), fractions[k]));
   return sbfi_d3_cross(sbfi_d3_sub(at[1], at[0]), sbfi_d3_sub(at[2], at[0]));
 }
 
@@ -124,7 +124,7 @@ static sbfi_d3 moved_normal(
 static bool is_flipped(
     const sbfi_blend_joint *c, int pose, sbfi_d3 normal, sbfi_d3 rest, const double fractions[3]) {
   sbfi_d3 turn =
-      sbfi_d3_scale(turned(c->turns[pose], rest), (fractions[0] + fractions[1] + fractions[2]) / 3);
+      sbfi_d3_scale(transform(c->rotations[pose], rest), (fractions[0] + fractions[1] + fractions[2]) / 3);
   return sbfi_d3_dot(normal, sbfi_d3_add(rest, turn)) < 0;
 }
 

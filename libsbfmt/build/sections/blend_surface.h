@@ -11,7 +11,7 @@ enum { SBFI_BLEND_POSES = 6 };
 /* A joint at whose head the surface is bent; zeros if the bone has no parent. */
 typedef struct sbfi_blend_joint {
   sbfi_d3 head;
-  double turns[SBFI_BLEND_POSES][3][3]; /* rotations minus the unit matrix */
+  double rotations[SBFI_BLEND_POSES][3][3]; /* rotations minus the unit matrix */
 } sbfi_blend_joint;
 
 typedef struct sbfi_blend_weight {

@@ -7,7 +7,7 @@
 #include "sbfmt/mechanics.h"
 
 /* Rotates `v` by the conjugate of `q`, in double precision. */
-static sbf_vec3 turned_back(sbf_quat q, const double v[3]) {
+static sbf_vec3 rotate_inverse(sbf_quat q, const double v[3]) {
   double x = -q.x, y = -q.y, z = -q.z, w = q.w;
   double tx = 2 * (y * v[2] - z * v[1]), ty = 2 * (z * v[0] - x * v[2]), tz = 2 * (x * v[1] - y * v[0]);
   return (sbf_vec3){(float)(v[0] + w * tx + y * tz - z * ty), (float)(v[1] + w * ty + z * tx - x * tz),
@@ -74,7 +74,7 @@ bool sbfi_bone_pins_make(sbf_pin_set *to, const char *set_name, const sbf_level 
     double from_head[3] = {
         (double)p.x - frame->head.x, (double)p.y - frame->head.y, (double)p.z - frame->head.z};
     points[i] = interior[i];
-    offsets[i] = turned_back(frame->rotation, from_head);
+    offsets[i] = rotate_inverse(frame->rotation, from_head);
   }
   sbf_pin_set_init(to);
   to->name = name;

@@ -10,13 +10,14 @@ static const double MIN_WEIGHT = 2e-4;
 static sbfi_blend_row *rows_of(const sbfi_skin_union *skin, sbfi_arena *arena) {
   uint32_t points = skin->mesh.positions.count;
   sbfi_blend_row *rows = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *rows);
-  sbfi_blend_weight *all = sbfi_arena_allocate(arena, (size_t)skin->hold_begins[points] + 1, sizeof *all);
+  sbfi_blend_weight *all =
+      sbfi_arena_allocate(arena, (size_t)skin->bone_weight_begins[points] + 1, sizeof *all);
   if (!rows || !all) return NULL;
-  for (uint32_t h = 0; h < skin->hold_begins[points]; h++)
-    all[h] = (sbfi_blend_weight){skin->holds[h].bone, skin->holds[h].weight};
+  for (uint32_t h = 0; h < skin->bone_weight_begins[points]; h++)
+    all[h] = (sbfi_blend_weight){skin->bone_weights[h].bone, skin->bone_weights[h].weight};
   for (uint32_t p = 0; p < points; p++) {
-    uint32_t count = skin->hold_begins[p + 1] - skin->hold_begins[p];
-    rows[p] = (sbfi_blend_row){all + skin->hold_begins[p], count, count};
+    uint32_t count = skin->bone_weight_begins[p + 1] - skin->bone_weight_begins[p];
+    rows[p] = (sbfi_blend_row){all + skin->bone_weight_begins[p], count, count};
   }
   return rows;
 }
@@ -43,8 +44,8 @@ static bool write_back(sbfi_skin_union *skin, const sbfi_blend_surface *s, sbfi_
   size_t max = 1;
   for (uint32_t p = 0; p < points; p++) max += s->rows[p].count;
   uint32_t *begins = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *begins);
-  sbfi_hold *holds = sbfi_arena_allocate(arena, max, sizeof *holds);
-  if (!begins || !holds) return false;
+  sbfi_bone_weight *bone_weights = sbfi_arena_allocate(arena, max, sizeof *bone_weights);
+  if (!begins || !bone_weights) return false;
   for (uint32_t p = 0; p < points; p++) {
     const sbfi_blend_row *r = &s->rows[p];
     double sum = 0;
@@ -52,13 +53,13 @@ static bool write_back(sbfi_skin_union *skin, const sbfi_blend_surface *s, sbfi_
     for (uint32_t i = 0; i < r->count; i++) sum += r->at[i].value >= MIN_WEIGHT ? r->at[i].value : 0;
     for (uint32_t i = 0; s->changed[p] && i < r->count; i++)
       if (r->at[i].value >= MIN_WEIGHT)
-        holds[next++] = (sbfi_hold){r->at[i].bone, (float)(r->at[i].value / sum)};
-    for (uint32_t h = skin->hold_begins[p]; !s->changed[p] && h < skin->hold_begins[p + 1]; h++)
-      holds[next++] = skin->holds[h];
+        bone_weights[next++] = (sbfi_bone_weight){r->at[i].bone, (float)(r->at[i].value / sum)};
+    for (uint32_t h = skin->bone_weight_begins[p]; !s->changed[p] && h < skin->bone_weight_begins[p + 1]; h++)
+      bone_weights[next++] = skin->bone_weights[h];
   }
   begins[points] = next;
-  skin->hold_begins = begins;
-  skin->holds = holds;
+  skin->bone_weight_begins = begins;
+  skin->bone_weights = bone_weights;
   return true;
 }
 

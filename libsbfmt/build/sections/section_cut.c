@@ -28,12 +28,12 @@ bool sbfi_section_cutter_init(sbfi_section_cutter *c, uint32_t bone_count, sbfi_
   c->queued = sbfi_arena_allocate(arena, points, 1);
   c->reached = sbfi_arena_allocate(arena, points, sizeof *c->reached);
   c->border = sbfi_arena_allocate(arena, (size_t)c->t->corner_count + 1, sizeof *c->border);
-  c->taken = sbfi_arena_allocate(arena, polygons, sizeof *c->taken);
+  c->selected = sbfi_arena_allocate(arena, polygons, sizeof *c->selected);
   c->is_candidate = sbfi_arena_allocate(arena, polygons, 1);
   c->grouped = sbfi_arena_allocate(arena, polygons, sizeof *c->grouped);
   c->group_begins = sbfi_arena_allocate(arena, (size_t)bone_count + 3, sizeof *c->group_begins);
   if (!c->reach || !c->shared || !c->queue || !c->new_points || !c->queued || !c->reached || !c->border ||
-      !c->taken || !c->is_candidate || !c->grouped || !c->group_begins)
+      !c->selected || !c->is_candidate || !c->grouped || !c->group_begins)
     return false;
   for (uint32_t p = 0; p < c->t->point_count; p++) c->reach[p] = NOT_REACHED;
   memset(c->new_points, 0xff, points * sizeof *c->new_points);
@@ -130,7 +130,7 @@ static void spread(sbfi_section_cutter *c) {
   }
 }
 
-static bool is_taken(const sbfi_section_cutter *c, uint32_t polygon, uint32_t bone) {
+static bool is_selected(const sbfi_section_cutter *c, uint32_t polygon, uint32_t bone) {
   double sum = 0;
   if (c->labels[polygon] == bone) return true;
   for (uint32_t k = c->t->corner_begins[polygon]; k < c->t->corner_begins[polygon + 1]; k++) {
@@ -144,13 +144,13 @@ static bool is_taken(const sbfi_section_cutter *c, uint32_t polygon, uint32_t bo
 static void consider(sbfi_section_cutter *c, uint32_t polygon) {
   if (c->is_candidate[polygon]) return;
   c->is_candidate[polygon] = 1;
-  c->taken[c->taken_count++] = polygon;
+  c->selected[c->selected_count++] = polygon;
 }
 
 /* Collects the bone's polygons and those within reach, ascending. */
-static void find_taken(sbfi_section_cutter *c, uint32_t bone) {
+static void find_selected(sbfi_section_cutter *c, uint32_t bone) {
   uint32_t kept = 0;
-  c->taken_count = 0;
+  c->selected_count = 0;
   for (uint32_t i = c->group_begins[bone]; i < c->group_begins[bone + 1]; i++) consider(c, c->grouped[i]);
   for (uint32_t i = 0; i < c->reached_count; i++) {
     uint32_t p = c->reached[i];
@@ -160,18 +160,18 @@ static void find_taken(sbfi_section_cutter *c, uint32_t bone) {
         consider(c, c->t->edge_polygons[n]);
     }
   }
-  for (uint32_t i = 0; i < c->taken_count; i++) {
-    c->is_candidate[c->taken[i]] = 0;
-    if (is_taken(c, c->taken[i], bone)) c->taken[kept++] = c->taken[i];
+  for (uint32_t i = 0; i < c->selected_count; i++) {
+    c->is_candidate[c->selected[i]] = 0;
+    if (is_selected(c, c->selected[i], bone)) c->selected[kept++] = c->selected[i];
   }
-  c->taken_count = kept;
-  qsort(c->taken, kept, sizeof *c->taken, by_number);
+  c->selected_count = kept;
+  qsort(c->selected, kept, sizeof *c->selected, by_number);
 }
 
 /* Clears the previous cut: its point map was kept until now. */
 static void forget_points(sbfi_section_cutter *c) {
-  for (uint32_t i = 0; i < c->taken_count; i++)
-    for (uint32_t k = c->t->corner_begins[c->taken[i]]; k < c->t->corner_begins[c->taken[i] + 1]; k++)
+  for (uint32_t i = 0; i < c->selected_count; i++)
+    for (uint32_t k = c->t->corner_begins[c->selected[i]]; k < c->t->corner_begins[c->selected[i] + 1]; k++)
       c->new_points[c->skin->mesh.polygon_points.at[k]] = SBFI_NO_INDEX;
 }
 
@@ -181,16 +181,16 @@ bool sbfi_section_cut(sbfi_section_cutter *c, uint32_t bone, sbf_polygon_mesh *m
   forget_points(c);
   begin_at_border(c, bone);
   spread(c);
-  find_taken(c, bone);
+  find_selected(c, bone);
   for (uint32_t i = 0; i < c->reached_count; i++) c->reach[c->reached[i]] = NOT_REACHED;
-  for (uint32_t i = 0; i < c->taken_count; i++) corners += from->polygon_sizes.at[c->taken[i]];
-  uint32_t *sizes = sbfi_arena_allocate(arena, (size_t)c->taken_count + 1, sizeof *sizes);
+  for (uint32_t i = 0; i < c->selected_count; i++) corners += from->polygon_sizes.at[c->selected[i]];
+  uint32_t *sizes = sbfi_arena_allocate(arena, (size_t)c->selected_count + 1, sizeof *sizes);
   uint32_t *at = sbfi_arena_allocate(arena, (size_t)corners + 1, sizeof *at);
   sbf_vec3 *positions = sbfi_arena_allocate(arena, (size_t)corners + 1, sizeof *positions);
   if (!sizes || !at || !positions) return false;
   corners = 0;
-  for (uint32_t i = 0; i < c->taken_count; i++) {
-    uint32_t p = c->taken[i];
+  for (uint32_t i = 0; i < c->selected_count; i++) {
+    uint32_t p = c->selected[i];
     sizes[i] = from->polygon_sizes.at[p];
     for (uint32_t k = c->t->corner_begins[p]; k < c->t->corner_begins[p + 1]; k++) {
       uint32_t point = from->polygon_points.at[k];
@@ -202,7 +202,7 @@ bool sbfi_section_cut(sbfi_section_cutter *c, uint32_t bone, sbf_polygon_mesh *m
     }
   }
   mesh->positions = (sbf_vec3_list){positions, points};
-  mesh->polygon_sizes = (sbf_u32_list){sizes, c->taken_count};
+  mesh->polygon_sizes = (sbf_u32_list){sizes, c->selected_count};
   mesh->polygon_points = (sbf_u32_list){at, corners};
   return true;
 }

@@ -19,10 +19,10 @@ typedef struct sbfi_section_cutter {
   uint32_t bone_count;
   uint32_t *group_begins, *grouped; /* polygons of each bone: (bones + 2) and (polygons) */
   /* State of the current bone; a cut takes time proportional to its sizes. */
-  uint32_t *border, border_count;   /* edges to other parts */
-  uint32_t *reached, reached_count; /* points within reach */
-  uint32_t *taken, taken_count;     /* polygons */
-  uint8_t *is_candidate;            /* (polygons) */
+  uint32_t *border, border_count;     /* edges to other parts */
+  uint32_t *reached, reached_count;   /* points within reach */
+  uint32_t *selected, selected_count; /* polygons */
+  uint8_t *is_candidate;              /* (polygons) */
 } sbfi_section_cutter;
 
 /* Allocates memory; the caller first fills `skin`, `t`, `labels` and `overlap_m`. */

@@ -14,7 +14,7 @@ typedef struct hull_list {
 } hull_list;
 
 /* Copies the hull for another rigid body: polygons are shared because they never change. */
-static bool give_hull(
+static bool copy_hull(
     sbf_rigid_body *to, const sbf_polygon_mesh *hull, int32_t derivation, sbf_asset *asset) {
   sbf_polygon_mesh *copy = sbf_asset_allocate(asset, 1, sizeof *copy);
   if (!copy) return false;
@@ -52,7 +52,7 @@ static bool make_rigid_body(sbf_rigid_body *to, const sbf_soft_body *body, const
   to->restitution = body->attributes.restitution;
   to->layer = body->collision.layer;
   to->mask = body->collision.mask;
-  return give_hull(to, hull, derivation, asset);
+  return copy_hull(to, hull, derivation, asset);
 }
 
 static bool has_authored_body(const hull_list *list, int32_t bone) {
@@ -99,7 +99,7 @@ static bool fill_authored(hull_list *list, sbf_asset *asset, int32_t derivation,
     sbfi_hull_outcome outcome = sbfi_hull_make(points.at, points.count, asset, &hull, scratch);
     if (outcome == SBFI_HULL_FLAT) report_flat("what moves with rigid body", body->name, reporter);
     if (outcome == SBFI_HULL_FLAT) continue;
-    if (outcome == SBFI_HULL_NO_MEMORY || !give_hull(body, &hull, derivation, asset)) return false;
+    if (outcome == SBFI_HULL_NO_MEMORY || !copy_hull(body, &hull, derivation, asset)) return false;
     ++*made;
   }
   return true;

@@ -32,16 +32,16 @@ static void gather_weights(const work *w, uint32_t polygon) {
   for (uint32_t c = w->t->corner_begins[polygon]; c < w->t->corner_begins[polygon + 1]; c++) {
     uint32_t point = w->skin->mesh.polygon_points.at[c];
     double size = w->t->corner_begins[polygon + 1] - w->t->corner_begins[polygon];
-    for (uint32_t h = w->skin->hold_begins[point]; h < w->skin->hold_begins[point + 1]; h++)
-      w->weights[w->skin->holds[h].bone] += w->skin->holds[h].weight / size;
+    for (uint32_t h = w->skin->bone_weight_begins[point]; h < w->skin->bone_weight_begins[point + 1]; h++)
+      w->weights[w->skin->bone_weights[h].bone] += w->skin->bone_weights[h].weight / size;
   }
 }
 
 static void clear_weights(const work *w, uint32_t polygon) {
   for (uint32_t c = w->t->corner_begins[polygon]; c < w->t->corner_begins[polygon + 1]; c++) {
     uint32_t point = w->skin->mesh.polygon_points.at[c];
-    for (uint32_t h = w->skin->hold_begins[point]; h < w->skin->hold_begins[point + 1]; h++)
-      w->weights[w->skin->holds[h].bone] = 0;
+    for (uint32_t h = w->skin->bone_weight_begins[point]; h < w->skin->bone_weight_begins[point + 1]; h++)
+      w->weights[w->skin->bone_weights[h].bone] = 0;
   }
 }
 
@@ -50,8 +50,8 @@ static uint32_t dominant(const work *w, uint32_t polygon) {
   uint32_t best = SBFI_NO_INDEX;
   for (uint32_t c = w->t->corner_begins[polygon]; c < w->t->corner_begins[polygon + 1]; c++) {
     uint32_t point = w->skin->mesh.polygon_points.at[c];
-    for (uint32_t h = w->skin->hold_begins[point]; h < w->skin->hold_begins[point + 1]; h++) {
-      uint32_t bone = w->skin->holds[h].bone;
+    for (uint32_t h = w->skin->bone_weight_begins[point]; h < w->skin->bone_weight_begins[point + 1]; h++) {
+      uint32_t bone = w->skin->bone_weights[h].bone;
       if (best == SBFI_NO_INDEX || w->weights[bone] > w->weights[best] ||
           (w->weights[bone] == w->weights[best] && bone < best))
         best = bone;
@@ -176,7 +176,7 @@ static uint32_t longest_neighbour(const work *w, const uint32_t *polygons, uint3
 }
 
 /* Relabels small pieces; returns whether there were any. */
-static bool hand_over(const work *w, uint32_t bone_count, uint32_t *numbers, uint32_t *sorted,
+static bool relabel_small_pieces(const work *w, uint32_t bone_count, uint32_t *numbers, uint32_t *sorted,
     sbfi_arena *scratch, bool *good) {
   uint32_t count = number_pieces(w, numbers, sorted);
   piece *pieces = sbfi_arena_allocate(scratch, (size_t)count + 2, sizeof *pieces);
@@ -229,6 +229,6 @@ bool sbfi_section_labels_make(uint32_t *labels, const sbfi_skin_union *skin, con
     ;
   bool good = true;
   for (int round = 0; round < MAX_PIECE_ROUNDS; round++)
-    if (!hand_over(&w, bone_count, numbers, sorted, scratch, &good)) break;
+    if (!relabel_small_pieces(&w, bone_count, numbers, sorted, scratch, &good)) break;
   return good;
 }

@@ -26,10 +26,10 @@ typedef struct work {
   sbfi_lattice lattice;
   uint32_t point_count;
   sbfi_spring_list springs;
-  float *volumes;  /* (point_count) a quarter of the volume of each adjacent tetrahedron */
-  double volume;   /* total volume */
-  uint8_t *pinned; /* (point_count) rigidly pinned, by the bone's core or by the author */
-  uint8_t *taken;  /* (point_count) pinned by the author */
+  float *volumes;    /* (point_count) a quarter of the volume of each adjacent tetrahedron */
+  double volume;     /* total volume */
+  uint8_t *pinned;   /* (point_count) rigidly pinned, by the bone's core or by the author */
+  uint8_t *is_taken; /* (point_count) pinned by the author */
 } work;
 
 static double volume_of(const work *w, sbf_uint4 at) {
@@ -76,7 +76,7 @@ static void spread_greatest(const work *w, const double *from, double *to) {
 
 /* Pins points that are deep relative to their surroundings, so that long sections are pinned along their
  * whole length. */
-static bool hold_core(work *w) {
+static bool mark_core(work *w) {
   sbfi_triangle_tree surface;
   double *depths2 = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *depths2);
   double *near = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *near);
@@ -90,16 +90,16 @@ static bool hold_core(work *w) {
   spread_greatest(w, depths2, near);
   spread_greatest(w, near, around);
   for (uint32_t i = 0; i < w->point_count; i++)
-    w->pinned[i] = w->pinned[i] || (!w->taken[i] && depths2[i] >= around[i] / 4);
+    w->pinned[i] = w->pinned[i] || (!w->is_taken[i] && depths2[i] >= around[i] / 4);
   return true;
 }
 
 /* Authored pins take precedence. */
-static bool hold_painted(work *w) {
+static bool mark_painted(work *w) {
   w->pinned = sbfi_arena_allocate(w->scratch, w->point_count, 1);
-  w->taken = sbfi_arena_allocate(w->scratch, w->point_count, 1);
-  if (!w->pinned || !w->taken) return false;
-  if (!sbfi_lattice_pins_map(w->level, w->body, w->taken, w->recipe->derivation, w->asset, w->scratch))
+  w->is_taken = sbfi_arena_allocate(w->scratch, w->point_count, 1);
+  if (!w->pinned || !w->is_taken) return false;
+  if (!sbfi_lattice_pins_map(w->level, w->body, w->is_taken, w->recipe->derivation, w->asset, w->scratch))
     return false;
   if (w->level->pins.count) sbf_level_pinned_points(w->level, w->pinned);
   for (uint32_t i = 0; i < w->level->pins.count; i++) w->counts->pins += w->level->pins.at[i].points.count;
@@ -110,7 +110,7 @@ static bool pin_core(work *w, sbf_pin_set *set) {
   uint32_t *core = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *core), count = 0;
   if (!core) return false;
   for (uint32_t i = 0; i < w->point_count; i++)
-    if (w->pinned[i] && !w->taken[i]) core[count++] = i;
+    if (w->pinned[i] && !w->is_taken[i]) core[count++] = i;
   if (!sbfi_bone_pins_make(set, "interior", w->level, w->body->bone, core, count, w->asset)) return false;
   w->counts->pins += count;
   return true;
@@ -125,7 +125,7 @@ static bool pin_shape(work *w, sbf_pin_set *set, const float *stiffness) {
   for (uint32_t s = 0; s < w->springs.count; s++)
     for (int end = 0; end < 2; end++) sums[w->springs.at[s].at[end]] += (double)stiffness[s];
   for (uint32_t i = 0; i < w->point_count; i++) {
-    if (w->pinned[i] || w->taken[i]) continue;
+    if (w->pinned[i] || w->is_taken[i]) continue;
     points[count++] = i;
     greatest = fmax(greatest, sums[i]);
   }
@@ -146,8 +146,8 @@ static bool add_pins(work *w, const float *stiffness) {
   if (!sets) return false;
   if (count) memcpy(sets, w->level->pins.at, count * sizeof *sets);
   for (uint32_t i = 0; i < w->point_count; i++) {
-    core_count += w->pinned[i] && !w->taken[i];
-    free_count += !w->pinned[i] && !w->taken[i];
+    core_count += w->pinned[i] && !w->is_taken[i];
+    free_count += !w->pinned[i] && !w->is_taken[i];
   }
   if (core_count && !pin_core(w, &sets[count++])) return false;
   if (free_count && !pin_shape(w, &sets[count++], stiffness)) return false;
@@ -224,6 +224,6 @@ sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_bo
   level->name = sbf_asset_copy_text(asset, "springs");
   bool good = level->name && fill(&w) &&
               sbfi_springs_sides(&w.springs, w.lattice.made.at, w.lattice.made.count, scratch) &&
-              hold_painted(&w) && hold_core(&w) && weigh(&w) && add_springs(&w);
+              mark_painted(&w) && mark_core(&w) && weigh(&w) && add_springs(&w);
   return good ? SBFI_LATTICE_MADE : SBFI_LATTICE_NO_MEMORY;
 }

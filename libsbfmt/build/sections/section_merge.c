@@ -84,7 +84,7 @@ static uint32_t find_taker(const work *w, uint32_t bone) {
   return longest != SBFI_NO_INDEX ? longest : above;
 }
 
-static void hand_over(const work *w, uint32_t bone, uint32_t to, sbfi_reporter *reporter) {
+static void merge_part(const work *w, uint32_t bone, uint32_t to, sbfi_reporter *reporter) {
   sbf_diagnostic diagnostic;
   sbfi_diagnose(&diagnostic, SBF_CODE_SECTION_MERGED,
       "what bone \"%s\" holds, %u polygons of %.3g m^2 behind a cut of %.3g m, is too little for a section "
@@ -126,7 +126,7 @@ bool sbfi_sections_merge(uint32_t *labels, uint32_t *owners, const sbfi_skin_uni
     uint32_t to = find_taker(&w, b);
     stays[b] = to == SBFI_NO_INDEX;
     if (stays[b]) continue;
-    hand_over(&w, b, to, reporter);
+    merge_part(&w, b, to, reporter);
     measure(&w);
     b = count; /* merges can change which parts are slivers, so starts again */
   }

@@ -18,18 +18,19 @@ static int32_t foot_of(const sbf_asset *asset, int32_t bone) {
 /* Fraction of a point's weights on a foot and its descendants. */
 static float pinned_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot) {
   float sum = 0;
-  for (uint32_t h = skin->hold_begins[point]; h < skin->hold_begins[point + 1]; h++)
-    if (feet[skin->holds[h].bone] == foot) sum += skin->holds[h].weight;
+  for (uint32_t h = skin->bone_weight_begins[point]; h < skin->bone_weight_begins[point + 1]; h++)
+    if (feet[skin->bone_weights[h].bone] == foot) sum += skin->bone_weights[h].weight;
   return sum;
 }
 
-/* Copies a point's holds by a foot to `holds`. Returns the next free index. */
-static uint32_t keep_own(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot,
-    sbfi_hold *holds, uint32_t next) {
+/* Copies a point's holds by a foot to `bone_weights`. Returns the next free index. */
+static uint32_t copy_own_weights(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point,
+    int32_t foot, sbfi_bone_weight *bone_weights, uint32_t next) {
   float sum = pinned_by(skin, feet, point, foot);
-  for (uint32_t h = skin->hold_begins[point]; h < skin->hold_begins[point + 1]; h++)
-    if (feet[skin->holds[h].bone] == foot)
-      holds[next++] = (sbfi_hold){skin->holds[h].bone, skin->holds[h].weight / sum};
+  for (uint32_t h = skin->bone_weight_begins[point]; h < skin->bone_weight_begins[point + 1]; h++)
+    if (feet[skin->bone_weights[h].bone] == foot)
+      bone_weights[next++] =
+          (sbfi_bone_weight){skin->bone_weights[h].bone, skin->bone_weights[h].weight / sum};
   return next;
 }
 
@@ -39,16 +40,17 @@ bool sbfi_soles_gather(sbfi_skin_union *skin, const sbf_asset *asset, uint8_t *s
   int32_t *foot_of_point = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *foot_of_point);
   float(*range)[2] = sbfi_arena_allocate(arena, (size_t)bones + 1, sizeof *range);
   uint32_t *begins = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *begins);
-  sbfi_hold *holds = sbfi_arena_allocate(arena, (size_t)skin->hold_begins[points] + 1, sizeof *holds);
-  if (!feet || !foot_of_point || !range || !begins || !holds) return false;
+  sbfi_bone_weight *bone_weights =
+      sbfi_arena_allocate(arena, (size_t)skin->bone_weight_begins[points] + 1, sizeof *bone_weights);
+  if (!feet || !foot_of_point || !range || !begins || !bone_weights) return false;
   for (uint32_t b = 0; b < bones; b++) {
     feet[b] = foot_of(asset, (int32_t)b);
     range[b][0] = INFINITY, range[b][1] = -INFINITY;
   }
   for (uint32_t p = 0; p < points; p++) {
     foot_of_point[p] = SBF_NONE;
-    for (uint32_t h = skin->hold_begins[p]; h < skin->hold_begins[p + 1]; h++) {
-      int32_t foot = feet[skin->holds[h].bone];
+    for (uint32_t h = skin->bone_weight_begins[p]; h < skin->bone_weight_begins[p + 1]; h++) {
+      int32_t foot = feet[skin->bone_weights[h].bone];
       if (foot != SBF_NONE && pinned_by(skin, feet, p, foot) > 0.5f) foot_of_point[p] = foot;
     }
     if (foot_of_point[p] == SBF_NONE) continue;
@@ -62,13 +64,13 @@ bool sbfi_soles_gather(sbfi_skin_union *skin, const sbf_asset *asset, uint8_t *s
     if (foot != SBF_NONE)
       soles[p] = skin->mesh.positions.at[p].y <= range[foot][0] + BAND * (range[foot][1] - range[foot][0]);
     if (soles[p])
-      next = keep_own(skin, feet, p, foot, holds, next);
+      next = copy_own_weights(skin, feet, p, foot, bone_weights, next);
     else
-      for (uint32_t h = skin->hold_begins[p]; h < skin->hold_begins[p + 1]; h++)
-        holds[next++] = skin->holds[h];
+      for (uint32_t h = skin->bone_weight_begins[p]; h < skin->bone_weight_begins[p + 1]; h++)
+        bone_weights[next++] = skin->bone_weights[h];
   }
   begins[points] = next;
-  skin->hold_begins = begins;
-  skin->holds = holds;
+  skin->bone_weight_begins = begins;
+  skin->bone_weights = bone_weights;
   return true;
 }

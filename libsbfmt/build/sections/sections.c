@@ -69,7 +69,7 @@ static bool own(sbf_asset *asset, const void **at, size_t count, size_t size) {
 }
 
 /* Reverses all polygons. */
-static void turn_over(sbf_polygon_mesh *mesh) {
+static void reverse_polygons(sbf_polygon_mesh *mesh) {
   uint32_t *points = (uint32_t *)(uintptr_t)mesh->polygon_points.at; /* owned by this pass */
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; points += mesh->polygon_sizes.at[p++])
     for (uint32_t i = 0, j = mesh->polygon_sizes.at[p] - 1; i < j; i++, j--) {
@@ -127,7 +127,7 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
   if (!sbfi_section_cut(cutter, bone, mesh, w->scratch)) return false;
   if (!sbfi_section_caps_make(mesh, &caps, w->scratch)) return false;
   sbf_surface_measure(mesh, NULL, &measures);
-  if (measures.volume < 0) turn_over(mesh);
+  if (measures.volume < 0) reverse_polygons(mesh);
   if (caps.left_sides) report(w, bone, SBF_CODE_SECTION_OPEN, caps.left_sides);
   if (!own(w->asset, (const void **)&mesh->positions.at, mesh->positions.count, sizeof(sbf_vec3)) ||
       !own(w->asset, (const void **)&mesh->polygon_sizes.at, mesh->polygon_sizes.count, sizeof(uint32_t)) ||
@@ -249,18 +249,18 @@ static bool make_mix(work *w, uint32_t point, uint32_t owner, bool beside, uint3
       .section = section_on(w, owner), .position = w->skin.mesh.positions.at[point], .beside = beside};
   bool foreign = beside;
   float sum = 0;
-  for (uint32_t h = w->skin.hold_begins[point]; h < w->skin.hold_begins[point + 1]; h++) {
-    sbfi_hold hold = w->skin.holds[h];
-    if (beside ? !is_rigid(w, hold.bone) : w->owners[hold.bone] != owner) continue;
-    foreign = foreign || hold.bone != owner;
+  for (uint32_t h = w->skin.bone_weight_begins[point]; h < w->skin.bone_weight_begins[point + 1]; h++) {
+    sbfi_bone_weight bone_weight = w->skin.bone_weights[h];
+    if (beside ? !is_rigid(w, bone_weight.bone) : w->owners[bone_weight.bone] != owner) continue;
+    foreign = foreign || bone_weight.bone != owner;
     uint32_t at = mix.count < 4 ? mix.count++ : 3;
-    if (at == 3 && mix.weights[3] >= hold.weight) continue;
-    for (; at > 0 && mix.weights[at - 1] < hold.weight; at--) {
+    if (at == 3 && mix.weights[3] >= bone_weight.weight) continue;
+    for (; at > 0 && mix.weights[at - 1] < bone_weight.weight; at--) {
       mix.bones[at] = mix.bones[at - 1];
       mix.weights[at] = mix.weights[at - 1];
     }
-    mix.bones[at] = hold.bone;
-    mix.weights[at] = hold.weight;
+    mix.bones[at] = bone_weight.bone;
+    mix.weights[at] = bone_weight.weight;
   }
   *number = SBFI_NO_INDEX;
   if (!foreign) return true;
@@ -275,8 +275,8 @@ static bool make_mix(work *w, uint32_t point, uint32_t owner, bool beside, uint3
 static bool distribute_rest(work *w, uint32_t point, uint32_t begin, uint32_t *next) {
   uint32_t max = begin;
   float rest = 0;
-  for (uint32_t h = w->skin.hold_begins[point]; h < w->skin.hold_begins[point + 1]; h++)
-    if (is_rigid(w, w->skin.holds[h].bone)) rest += w->skin.holds[h].weight;
+  for (uint32_t h = w->skin.bone_weight_begins[point]; h < w->skin.bone_weight_begins[point + 1]; h++)
+    if (is_rigid(w, w->skin.bone_weights[h].bone)) rest += w->skin.bone_weights[h].weight;
   for (uint32_t i = begin; i < *next; i++)
     if (w->contributions[i].weight > w->contributions[max].weight) max = i;
   if (*next == begin || !(rest > 0)) return true;
@@ -290,18 +290,18 @@ static bool distribute_points(work *w) {
   uint32_t points = w->skin.mesh.positions.count;
   w->contribution_begins =
       sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *w->contribution_begins);
-  w->contributions =
-      sbfi_arena_allocate(w->scratch, (size_t)w->skin.hold_begins[points] + 1, sizeof *w->contributions);
+  w->contributions = sbfi_arena_allocate(
+      w->scratch, (size_t)w->skin.bone_weight_begins[points] + 1, sizeof *w->contributions);
   if (!w->contribution_begins || !w->contributions) return false;
   uint32_t next = 0;
   for (uint32_t p = 0; p < points; p++) {
     uint32_t begin = w->contribution_begins[p] = next;
-    for (uint32_t h = w->skin.hold_begins[p]; h < w->skin.hold_begins[p + 1]; h++) {
-      uint32_t owner = w->owners[w->skin.holds[h].bone], at = begin;
-      if (!is_soft(w, w->skin.holds[h].bone)) continue;
+    for (uint32_t h = w->skin.bone_weight_begins[p]; h < w->skin.bone_weight_begins[p + 1]; h++) {
+      uint32_t owner = w->owners[w->skin.bone_weights[h].bone], at = begin;
+      if (!is_soft(w, w->skin.bone_weights[h].bone)) continue;
       while (at < next && w->contributions[at].bone != owner) at++;
       if (at == next) w->contributions[next++].bone = owner;
-      w->contributions[at].weight += w->skin.holds[h].weight;
+      w->contributions[at].weight += w->skin.bone_weights[h].weight;
     }
     for (uint32_t i = begin; i < next; i++)
       if (!make_mix(w, p, w->contributions[i].bone, false, &w->contributions[i].mix)) return false;
@@ -438,8 +438,8 @@ static double single_fraction(const work *w) {
   uint32_t pinned = 0, single = 0;
   for (uint32_t p = 0; p < w->skin.mesh.positions.count; p++) {
     float max = 0;
-    for (uint32_t h = w->skin.hold_begins[p]; h < w->skin.hold_begins[p + 1]; h++)
-      max = fmaxf(max, w->skin.holds[h].weight);
+    for (uint32_t h = w->skin.bone_weight_begins[p]; h < w->skin.bone_weight_begins[p + 1]; h++)
+      max = fmaxf(max, w->skin.bone_weights[h].weight);
     pinned += max > 0;
     single += max >= SINGLE_WEIGHT;
   }

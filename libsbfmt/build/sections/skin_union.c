@@ -22,7 +22,7 @@ typedef struct work {
   uint32_t *numbers;                  /* (point_count) number of vertices at the point */
   uint32_t *points;                   /* (vertex_count) */
   uint32_t *begins, *counts;          /* (vertex_count + 1) holds of each vertex */
-  sbfi_hold *holds;
+  sbfi_bone_weight *bone_weights;
   uint32_t *slots, *next; /* hash of positions: first point; next point in the same slot */
   size_t slot_count;
 } work;
@@ -57,35 +57,36 @@ bool sbfi_skins_choose(const sbf_asset *asset, uint8_t *chosen, uint32_t *count,
   return true;
 }
 
-static int compare_holds(const void *a, const void *b) {
-  const sbfi_hold *x = a, *y = b;
+static int compare_bones(const void *a, const void *b) {
+  const sbfi_bone_weight *x = a, *y = b;
   return x->bone < y->bone ? -1 : x->bone > y->bone;
 }
 
 /* Sorts by bone, merges duplicates, normalizes the sum; returns the remaining count. */
-static uint32_t tidy(sbfi_hold *holds, uint32_t count) {
+static uint32_t normalise_weights(sbfi_bone_weight *bone_weights, uint32_t count) {
   uint32_t kept = 0;
   double sum = 0;
-  qsort(holds, count, sizeof *holds, compare_holds);
+  qsort(bone_weights, count, sizeof *bone_weights, compare_bones);
   for (uint32_t i = 0; i < count; i++) {
-    if (!(holds[i].weight > 0)) continue;
-    if (kept && holds[kept - 1].bone == holds[i].bone)
-      holds[kept - 1].weight += holds[i].weight;
+    if (!(bone_weights[i].weight > 0)) continue;
+    if (kept && bone_weights[kept - 1].bone == bone_weights[i].bone)
+      bone_weights[kept - 1].weight += bone_weights[i].weight;
     else
-      holds[kept++] = holds[i];
+      bone_weights[kept++] = bone_weights[i];
   }
-  for (uint32_t i = 0; i < kept; i++) sum += holds[i].weight;
-  for (uint32_t i = 0; i < kept; i++) holds[i].weight = (float)(holds[i].weight / sum);
+  for (uint32_t i = 0; i < kept; i++) sum += bone_weights[i].weight;
+  for (uint32_t i = 0; i < kept; i++) bone_weights[i].weight = (float)(bone_weights[i].weight / sum);
   return kept;
 }
 
-static void take_holds(work *w, const sbf_render_mesh *mesh, uint32_t first_vertex) {
+static void copy_weights(work *w, const sbf_render_mesh *mesh, uint32_t first_vertex) {
   uint32_t influence = 0;
   for (uint32_t v = first_vertex; v < first_vertex + mesh->mesh.positions.count; v++) {
     uint32_t begin = w->begins[v], count = mesh->skin->influence_counts.at[v - first_vertex];
     for (uint32_t i = 0; i < count; i++, influence++)
-      w->holds[begin + i] = (sbfi_hold){mesh->skin->bones.at[influence], mesh->skin->weights.at[influence]};
-    w->counts[v] = tidy(w->holds + begin, count);
+      w->bone_weights[begin + i] =
+          (sbfi_bone_weight){mesh->skin->bones.at[influence], mesh->skin->weights.at[influence]};
+    w->counts[v] = normalise_weights(w->bone_weights + begin, count);
     w->begins[v + 1] = begin + w->counts[v];
   }
 }
@@ -95,9 +96,10 @@ static double difference(const work *w, uint32_t a, uint32_t b) {
   double sum = 0;
   uint32_t i = w->begins[a], j = w->begins[b];
   while (i < w->begins[a] + w->counts[a] || j < w->begins[b] + w->counts[b]) {
-    uint32_t left = i < w->begins[a] + w->counts[a] ? w->holds[i].bone : UINT32_MAX;
-    uint32_t right = j < w->begins[b] + w->counts[b] ? w->holds[j].bone : UINT32_MAX;
-    double x = left <= right ? w->holds[i++].weight : 0, y = right <= left ? w->holds[j++].weight : 0;
+    uint32_t left = i < w->begins[a] + w->counts[a] ? w->bone_weights[i].bone : UINT32_MAX;
+    uint32_t right = j < w->begins[b] + w->counts[b] ? w->bone_weights[j].bone : UINT32_MAX;
+    double x = left <= right ? w->bone_weights[i++].weight : 0,
+           y = right <= left ? w->bone_weights[j++].weight : 0;
     sum += fabs(x - y);
   }
   return sum / 2;
@@ -132,7 +134,7 @@ static void join_vertices(work *w) {
   for (uint32_t m = 0; m < meshes->count; m++) {
     const sbf_render_mesh *mesh = &meshes->at[m];
     if (!w->chosen[m]) continue;
-    take_holds(w, mesh, first);
+    copy_weights(w, mesh, first);
     w->to->points_of_mesh[m] = w->points + first;
     for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
       uint32_t point = find_point(w, first + v, mesh->mesh.positions.at[v]);
@@ -144,35 +146,36 @@ static void join_vertices(work *w) {
 }
 
 /* A point's weights are the means of its vertices'. */
-static bool average_holds(work *w) {
+static bool average_weights(work *w) {
   uint32_t *begins = sbfi_arena_allocate(w->arena, (size_t)w->point_count + 1, sizeof *begins);
   uint32_t *ends = sbfi_arena_allocate(w->arena, (size_t)w->point_count + 1, sizeof *ends);
-  sbfi_hold *holds = sbfi_arena_allocate(w->arena, (size_t)w->begins[w->vertex_count] + 1, sizeof *holds);
-  if (!begins || !ends || !holds) return false;
+  sbfi_bone_weight *bone_weights =
+      sbfi_arena_allocate(w->arena, (size_t)w->begins[w->vertex_count] + 1, sizeof *bone_weights);
+  if (!begins || !ends || !bone_weights) return false;
   for (uint32_t v = 0; v < w->vertex_count; v++) begins[w->points[v] + 1] += w->counts[v];
   for (uint32_t p = 0; p < w->point_count; p++) begins[p + 1] += begins[p];
   for (uint32_t p = 0; p < w->point_count; p++) ends[p] = begins[p];
   for (uint32_t v = 0; v < w->vertex_count; v++)
     for (uint32_t i = 0; i < w->counts[v]; i++) {
-      sbfi_hold *to = &holds[ends[w->points[v]]++];
-      *to = w->holds[w->begins[v] + i];
+      sbfi_bone_weight *to = &bone_weights[ends[w->points[v]]++];
+      *to = w->bone_weights[w->begins[v] + i];
       to->weight /= (float)w->numbers[w->points[v]];
     }
   uint32_t kept = 0;
   for (uint32_t p = 0; p < w->point_count; p++) {
-    uint32_t begin = begins[p], count = tidy(holds + begin, ends[p] - begin);
-    memmove(holds + kept, holds + begin, count * sizeof *holds);
+    uint32_t begin = begins[p], count = normalise_weights(bone_weights + begin, ends[p] - begin);
+    memmove(bone_weights + kept, bone_weights + begin, count * sizeof *bone_weights);
     begins[p] = kept;
     kept += count;
   }
   begins[w->point_count] = kept;
-  w->to->hold_begins = begins;
-  w->to->holds = holds;
+  w->to->bone_weight_begins = begins;
+  w->to->bone_weights = bone_weights;
   return true;
 }
 
 /* Copies a polygon's corners without consecutive duplicates; 0: degenerate. */
-static uint32_t take_polygon(const uint32_t *corners, uint32_t size, const uint32_t *points, uint32_t *to) {
+static uint32_t copy_polygon(const uint32_t *corners, uint32_t size, const uint32_t *points, uint32_t *to) {
   uint32_t kept = 0;
   for (uint32_t k = 0; k < size; k++) {
     uint32_t point = points[corners[k]];
@@ -201,7 +204,7 @@ static bool drop_repeats(sbf_polygon_mesh *mesh, uint32_t *sizes, uint32_t *poin
   return true;
 }
 
-static bool take_polygons(work *w) {
+static bool copy_polygons(work *w) {
   size_t polygons = 0, corners = 0;
   const sbf_render_mesh_list *meshes = &w->asset->render_meshes;
   for (uint32_t m = 0; m < meshes->count; m++) {
@@ -219,7 +222,7 @@ static bool take_polygons(work *w) {
     if (!w->chosen[m]) continue;
     for (uint32_t p = 0; p < mesh->polygon_sizes.count; from += mesh->polygon_sizes.at[p++]) {
       uint32_t kept =
-          take_polygon(from, mesh->polygon_sizes.at[p], w->to->points_of_mesh[m], points + corner_count);
+          copy_polygon(from, mesh->polygon_sizes.at[p], w->to->points_of_mesh[m], points + corner_count);
       if (kept) sizes[polygon_count++] = kept;
       corner_count += kept;
     }
@@ -235,13 +238,13 @@ static bool take_polygons(work *w) {
 bool sbfi_skin_union_make(
     sbfi_skin_union *to, const sbf_asset *asset, const uint8_t *chosen, sbfi_arena *arena) {
   work w = {.asset = asset, .chosen = chosen, .to = to, .arena = arena};
-  size_t vertices = 0, holds = 0;
+  size_t vertices = 0, bone_weights = 0;
   for (uint32_t m = 0; m < asset->render_meshes.count; m++) {
     if (!chosen[m]) continue;
     vertices += asset->render_meshes.at[m].mesh.positions.count;
-    holds += asset->render_meshes.at[m].skin->bones.count;
+    bone_weights += asset->render_meshes.at[m].skin->bones.count;
   }
-  if (vertices >= SBFI_NO_INDEX || holds >= SBFI_NO_INDEX) return false;
+  if (vertices >= SBFI_NO_INDEX || bone_weights >= SBFI_NO_INDEX) return false;
   w.vertex_count = (uint32_t)vertices;
   for (w.slot_count = 16; w.slot_count < 2 * vertices;) w.slot_count *= 2;
   to->points_of_mesh =
@@ -252,13 +255,13 @@ bool sbfi_skin_union_make(
   w.points = sbfi_arena_allocate(arena, vertices + 1, sizeof *w.points);
   w.begins = sbfi_arena_allocate(arena, vertices + 1, sizeof *w.begins);
   w.counts = sbfi_arena_allocate(arena, vertices + 1, sizeof *w.counts);
-  w.holds = sbfi_arena_allocate(arena, holds + 1, sizeof *w.holds);
+  w.bone_weights = sbfi_arena_allocate(arena, bone_weights + 1, sizeof *w.bone_weights);
   w.next = sbfi_arena_allocate(arena, vertices + 1, sizeof *w.next);
   w.slots = sbfi_arena_allocate(arena, w.slot_count, sizeof *w.slots);
   if (!to->points_of_mesh || !w.positions || !w.firsts || !w.numbers || !w.points || !w.begins || !w.counts ||
-      !w.holds || !w.next || !w.slots)
+      !w.bone_weights || !w.next || !w.slots)
     return false;
   memset(w.slots, 0xff, w.slot_count * sizeof *w.slots);
   join_vertices(&w);
-  return average_holds(&w) && take_polygons(&w);
+  return average_weights(&w) && copy_polygons(&w);
 }

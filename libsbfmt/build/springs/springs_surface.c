@@ -40,7 +40,7 @@ static void add_shear(sbfi_spring_list *list, sbfi_pair_set *known, const sbfi_t
   }
 }
 
-static bool distribute_polygon(const sbfi_topology *t, uint32_t edge, uint32_t other) {
+static bool have_common_polygon(const sbfi_topology *t, uint32_t edge, uint32_t other) {
   for (uint32_t i = t->edge_polygon_begins[edge]; i < t->edge_polygon_begins[edge + 1]; i++)
     for (uint32_t j = t->edge_polygon_begins[other]; j < t->edge_polygon_begins[other + 1]; j++)
       if (t->edge_polygons[i] == t->edge_polygons[j]) return true;
@@ -68,7 +68,7 @@ static void add_flexion(sbfi_spring_list *list, sbfi_pair_set *known, const sbfi
     for (uint32_t j = 0; j < count; j++) {
       const double *a = directions[i], *b = directions[j];
       double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-      if (j == i || cosine >= min || distribute_polygon(t, edges[i], edges[j])) continue;
+      if (j == i || cosine >= min || have_common_polygon(t, edges[i], edges[j])) continue;
       min = cosine;
       straightest[i] = j;
     }

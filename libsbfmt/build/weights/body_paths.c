@@ -18,7 +18,7 @@ static uint32_t bucket_of(float distance) {
   return (uint32_t)distance % BUCKETS;
 }
 
-static void take_out(sbfi_body_paths *p, uint32_t cell) {
+static void remove_cell(sbfi_body_paths *p, uint32_t cell) {
   uint32_t before = p->previous[cell], after = p->next[cell];
   if (before == UINT32_MAX)
     p->first[bucket_of(p->distances[cell])] = after;
@@ -31,7 +31,7 @@ static void take_out(sbfi_body_paths *p, uint32_t cell) {
 static bool improve(sbfi_body_paths *p, uint32_t cell, float distance) {
   if (!(distance < p->distances[cell])) return false;
   bool is_new = p->distances[cell] == INFINITY;
-  if (!is_new) take_out(p, cell);
+  if (!is_new) remove_cell(p, cell);
   p->distances[cell] = distance;
   uint32_t *first = &p->first[bucket_of(distance)];
   p->next[cell] = *first;

@@ -9,7 +9,7 @@ bool sbfi_body_rays_make(sbfi_body_rays *rays, const sbf_polygon_mesh *surface, 
          sbfi_soup_make(&rays->soup, surface, arena) && sbfi_winding_make(&rays->winding, &rays->soup, arena);
 }
 
-bool sbfi_body_holds(const sbfi_body_rays *rays, sbfi_d3 point) {
+bool sbfi_body_contains(const sbfi_body_rays *rays, sbfi_d3 point) {
   int closed = sbfi_winding_of_closed(&rays->winding, point);
   if (!rays->soup.cap_count) return closed != 0;
   return sbfi_winding_inside(closed, sbfi_winding_of_caps(&rays->winding, point));
@@ -33,12 +33,12 @@ static double first_hit(const sbfi_triangle_tree *tree, sbfi_d3 from, sbfi_d3 di
 double sbfi_body_exit_distance(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 direction) {
   uint32_t hit;
   double travel = first_hit(&rays->tree, from, direction, &hit);
-  if (!isfinite(travel) || !sbfi_body_holds(rays, from)) return travel;
+  if (!isfinite(travel) || !sbfi_body_contains(rays, from)) return travel;
   for (int passed = 0; passed < MAX_PASSED; passed++) {
     sbfi_d3 behind = sbfi_d3_add(from, sbfi_d3_scale(direction, travel + STEP));
     double next = first_hit(&rays->tree, behind, direction, &hit);
     sbfi_d3 between = sbfi_d3_add(behind, sbfi_d3_scale(direction, next / 2));
-    if (!isfinite(next) || (next > STEP && !sbfi_body_holds(rays, between))) break;
+    if (!isfinite(next) || (next > STEP && !sbfi_body_contains(rays, between))) break;
     travel += STEP + next;
   }
   return travel;

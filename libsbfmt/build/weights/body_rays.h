@@ -16,7 +16,7 @@ typedef struct sbfi_body_rays {
 bool sbfi_body_rays_make(sbfi_body_rays *rays, const sbf_polygon_mesh *surface, sbfi_arena *arena);
 
 /* Whether any shell, possibly closed by caps, contains the point. */
-bool sbfi_body_holds(const sbfi_body_rays *rays, sbfi_d3 point);
+bool sbfi_body_contains(const sbfi_body_rays *rays, sbfi_d3 point);
 
 /* Distance from a point along a unit direction to where the ray leaves the body, through nested shells;
  * from outside, to the surface. INFINITY: no hit. */

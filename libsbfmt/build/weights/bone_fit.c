@@ -69,7 +69,7 @@ static double inside_fraction(
     all += length;
     for (uint32_t k = 0; length > 0 && k < SAMPLES; k++) {
       sbfi_d3 at = sbfi_d3_add(segments[b].head, sbfi_d3_scale(along, (k + 0.5) / SAMPLES));
-      inside += length / SAMPLES * sbfi_body_holds(rays, at);
+      inside += length / SAMPLES * sbfi_body_contains(rays, at);
     }
   }
   return all > 0 ? inside / all : 1;

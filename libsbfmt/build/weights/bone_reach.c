@@ -79,7 +79,7 @@ static void level_chain(
 
 /* Limits the thickness of bones beside their parent, and of their descendants, to the parent's: ambiguous
  * skin belongs to the parent. */
-static bool bound_beside(
+static bool limit_beside(
     double *thickness, const sbfi_weights_input *in, const sbfi_bone_segment *segments, sbfi_arena *arena) {
   int32_t *beside = sbfi_arena_allocate(arena, in->bone_count, sizeof *beside);
   if (!beside) return false;
@@ -115,7 +115,7 @@ static bool find_thickness(sbfi_bone_reach *r, const sbfi_weights_input *in, con
     level_chain(bones + first, i - first, segments, r->thickness);
     first = i;
   }
-  return bound_beside(r->thickness, in, segments, arena);
+  return limit_beside(r->thickness, in, segments, arena);
 }
 
 static bool is_within(const sbfi_shell *shell, sbfi_d3 at) {
@@ -123,7 +123,7 @@ static bool is_within(const sbfi_shell *shell, sbfi_d3 at) {
          at.y <= shell->high.y && at.z <= shell->high.z;
 }
 
-static bool may_hold(const sbfi_shell *shell, const sbfi_bone_segment *bone) {
+static bool may_contain(const sbfi_shell *shell, const sbfi_bone_segment *bone) {
   return fmax(bone->head.x, bone->tail.x) >= shell->low.x &&
          fmin(bone->head.x, bone->tail.x) <= shell->high.x &&
          fmax(bone->head.y, bone->tail.y) >= shell->low.y &&
@@ -155,10 +155,10 @@ static bool fractions_of_shell(sbfi_bone_reach *r, sbfi_array *contributions, ui
     const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
     const uint32_t *sizes) {
   const sbfi_shell *shell = &mesh->shells[s];
-  bool is_wanted = false, good = true;
+  bool is_needed = false, good = true;
   for (uint32_t b = 0; b < in->bone_count; b++)
-    is_wanted |= segments[b].is_deforming && may_hold(shell, &segments[b]);
-  if (!is_wanted || shell->triangle_count < 4) return true;
+    is_needed |= segments[b].is_deforming && may_contain(shell, &segments[b]);
+  if (!is_needed || shell->triangle_count < 4) return true;
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &contributions->allocator, 0);
   sbf_polygon_mesh surface;
@@ -167,9 +167,9 @@ static bool fractions_of_shell(sbfi_bone_reach *r, sbfi_array *contributions, ui
   good = sbfi_weight_mesh_shell(mesh, s, sizes, &surface, &scratch) &&
          sbfi_soup_make(&soup, &surface, &scratch) && sbfi_winding_make(&winding, &soup, &scratch);
   for (uint32_t b = 0; good && b < in->bone_count; b++) {
-    if (!segments[b].is_deforming || !may_hold(shell, &segments[b])) continue;
+    if (!segments[b].is_deforming || !may_contain(shell, &segments[b])) continue;
     sbfi_bone_fraction length_fraction = {b, s, (float)inside_fraction(&winding, shell, &segments[b])};
-    r->shell_holds_bone[s] |= (double)length_fraction.fraction > PINNED_FRACTION;
+    r->shell_contains_bone[s] |= (double)length_fraction.fraction > PINNED_FRACTION;
     good = length_fraction.fraction <= 0 || sbfi_array_append(contributions, &length_fraction, 1);
   }
   sbfi_arena_free(&scratch);
@@ -180,8 +180,8 @@ static bool find_fractions(sbfi_bone_reach *r, const sbfi_weights_input *in, con
     const sbfi_bone_segment *segments, const uint32_t *sizes, sbfi_arena *arena) {
   sbfi_array contributions;
   sbfi_array_init(&contributions, &arena->allocator, sizeof(sbfi_bone_fraction));
-  r->shell_holds_bone = sbfi_arena_allocate(arena, mesh->shell_count, sizeof *r->shell_holds_bone);
-  bool good = r->shell_holds_bone != NULL;
+  r->shell_contains_bone = sbfi_arena_allocate(arena, mesh->shell_count, sizeof *r->shell_contains_bone);
+  bool good = r->shell_contains_bone != NULL;
   for (uint32_t s = 0; good && s < mesh->shell_count; s++)
     good = fractions_of_shell(r, &contributions, s, in, mesh, segments, sizes);
   r->fraction_count = (uint32_t)contributions.count;

@@ -15,7 +15,7 @@ typedef struct sbfi_bone_reach {
   double *thickness;             /* (bone_count) radius of the body around each bone */
   sbfi_bone_fraction *fractions; /* (fraction_count) */
   uint32_t fraction_count;
-  bool *shell_holds_bone; /* (shell_count) contains more than an eighth of some bone */
+  bool *shell_contains_bone; /* (shell_count) contains more than an eighth of some bone */
 } sbfi_bone_reach;
 
 /* False if memory runs out. */

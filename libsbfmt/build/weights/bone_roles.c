@@ -11,7 +11,7 @@ static const double OUTSIDE = 0.05, SAME_POSITION = 0.002;
 enum { NAME_SIZE = 64 };
 
 /* Lower case letters of a name. */
-static void take_letters(const char *name, char letters[NAME_SIZE]) {
+static void copy_letters(const char *name, char letters[NAME_SIZE]) {
   size_t count = 0;
   for (; name && *name && count + 1 < NAME_SIZE; name++) {
     char letter = (char)(*name | 0x20);
@@ -61,7 +61,7 @@ bool sbfi_bone_is_on_root(const sbfi_weights_input *in, uint32_t bone) {
 static bool is_outside(const sbfi_body_rays *rays, sbfi_d3 at) {
   double squared = OUTSIDE * OUTSIDE;
   return sbfi_triangle_tree_nearest(&rays->tree, sbfi_d3_rounded(at), &squared) == UINT32_MAX &&
-         !sbfi_body_holds(rays, at);
+         !sbfi_body_contains(rays, at);
 }
 
 /* Whether a bone of another limb begins at the same position. */
@@ -131,7 +131,7 @@ void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *
   for (uint32_t i = 0; i < in->bone_count; i++) {
     char letters[NAME_SIZE];
     int32_t parent = in->bones[i].parent;
-    take_letters(in->bones[i].name, letters);
+    copy_letters(in->bones[i].name, letters);
     bool is_control = is_control_name(letters);
     if (!is_control && sbfi_bone_is_on_root(in, i) && is_last(in, i))
       is_control = (rays && is_outside(rays, sbfi_weight_mesh_position(mesh, in->bones[i].head))) ||

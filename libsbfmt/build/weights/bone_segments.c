@@ -87,7 +87,7 @@ static bool hangs_beside(
 static double length_inside(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 axis) {
   const double step = 1.0 / 64;
   double length = 0;
-  while (length < 1 && sbfi_body_holds(rays, sbfi_d3_add(from, sbfi_d3_scale(axis, length + step))))
+  while (length < 1 && sbfi_body_contains(rays, sbfi_d3_add(from, sbfi_d3_scale(axis, length + step))))
     length += step;
   return length;
 }
@@ -101,7 +101,7 @@ static double leaf_length(const sbfi_weights_input *in, const sbfi_weight_mesh *
     sbfi_d3 displacement = sbfi_d3_sub(segments[i].head, segments[bone].head);
     double along = sbfi_d3_dot(displacement, axis);
     sbfi_d3 aside = sbfi_d3_sub(displacement, sbfi_d3_scale(axis, along));
-    if (along > ON_AXIS && along < joint && sbfi_body_holds(rays, segments[i].head) &&
+    if (along > ON_AXIS && along < joint && sbfi_body_contains(rays, segments[i].head) &&
         sbfi_d3_length(aside) < ON_AXIS && !hangs_beside(in, segments, i, bone))
       joint = along;
   }
@@ -124,12 +124,12 @@ static sbfi_d3 tail_to_mark(
     const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays, sbfi_d3 head, sbfi_d3 mark) {
   sbfi_d3 displacement = sbfi_d3_sub(mark, head);
   double length = sbfi_d3_length(displacement);
-  if (sbfi_body_holds(rays, mark) || !sbfi_body_holds(rays, head)) return mark;
+  if (sbfi_body_contains(rays, mark) || !sbfi_body_contains(rays, head)) return mark;
   double out = sbfi_body_shell_end(rays, mesh, head, sbfi_d3_scale(displacement, 1 / length));
   return out < length ? sbfi_d3_add(head, sbfi_d3_scale(displacement, EXIT_DISTANCE * out / length)) : mark;
 }
 
-static void take_sides(const sbfi_weights_input *in, sbfi_bone_segment *segments) {
+static void find_sides(const sbfi_weights_input *in, sbfi_bone_segment *segments) {
   for (uint32_t i = 0; i < in->bone_count; i++) {
     int32_t parent = in->bones[i].parent;
     segments[i].side = in->sides ? in->sides[i] : 0;
@@ -149,7 +149,7 @@ bool sbfi_bone_segments_find(const sbfi_weights_input *in, const sbfi_weight_mes
     segments[i] = (sbfi_bone_segment){
         .head = heads[i], .tail = heads[i], .next = SBF_NONE, .is_deforming = is_deforming[i]};
   }
-  take_sides(in, segments);
+  find_sides(in, segments);
   find_next(in, segments, fit);
   for (uint32_t i = 0; i < in->bone_count; i++)
     if (segments[i].next != SBF_NONE) segments[i].tail = heads[segments[i].next];

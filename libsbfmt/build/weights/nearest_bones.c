@@ -13,13 +13,14 @@ static const double AT_JOINT = 1e-4, NEARLY = 0.1;
 /* Factors of the distance from one bone to each shell. */
 static void shell_factors(const sbfi_bone_reach *reach, uint32_t bone, uint32_t *next_fraction,
     uint32_t shell_count, double *factors) {
-  for (uint32_t s = 0; s < shell_count; s++) factors[s] = reach->shell_holds_bone[s] ? 1 + SHELL_PENALTY : 1;
+  for (uint32_t s = 0; s < shell_count; s++)
+    factors[s] = reach->shell_contains_bone[s] ? 1 + SHELL_PENALTY : 1;
   while (*next_fraction < reach->fraction_count && reach->fractions[*next_fraction].bone < bone)
     (*next_fraction)++;
   for (; *next_fraction < reach->fraction_count && reach->fractions[*next_fraction].bone == bone;
        (*next_fraction)++) {
     const sbfi_bone_fraction *length_fraction = &reach->fractions[*next_fraction];
-    if (!reach->shell_holds_bone[length_fraction->shell]) continue;
+    if (!reach->shell_contains_bone[length_fraction->shell]) continue;
     double limited = fmin(1, (double)length_fraction->fraction / WHOLE_FRACTION);
     factors[length_fraction->shell] = 1 + SHELL_PENALTY * (1 - limited);
   }

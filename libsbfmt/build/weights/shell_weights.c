@@ -81,14 +81,14 @@ static bool is_machine(const sbfi_weight_mesh *mesh) {
 
 /* Small shells without a bone inside take the weights of the nearest sites of shells with one, such as
  * eyes in a head. */
-static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reach *reach,
+static bool copy_from_bone_shells(const sbfi_weight_mesh *mesh, const sbfi_bone_reach *reach,
     sbfi_site_weights *weights, sbfi_arena *arena) {
   sbf_vec3 *positions = sbfi_arena_allocate(arena, mesh->site_count, sizeof *positions);
   uint32_t *sites = sbfi_arena_allocate(arena, mesh->site_count, sizeof *sites), count = 0;
   sbfi_box *boxes = sbfi_arena_allocate(arena, mesh->site_count, sizeof *boxes);
   if (!positions || !sites || !boxes) return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
-    if (!reach->shell_holds_bone[mesh->shell_of_site[i]]) continue;
+    if (!reach->shell_contains_bone[mesh->shell_of_site[i]]) continue;
     sbf_vec3 at = mesh->sites[i];
     boxes[count] = (sbfi_box){{at.x, at.y, at.z}, {at.x, at.y, at.z}};
     positions[count] = at;
@@ -99,7 +99,8 @@ static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reac
   if (!sbfi_box_tree_build(&tree, boxes, count, arena)) return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
     uint32_t shell = mesh->shell_of_site[i];
-    if (reach->shell_holds_bone[shell] || (mesh->shells[shell].size >= SMALL && !is_machine(mesh))) continue;
+    if (reach->shell_contains_bone[shell] || (mesh->shells[shell].size >= SMALL && !is_machine(mesh)))
+      continue;
     double nearest = INFINITY;
     sbf_vec3 at = mesh->sites[i];
     uint32_t found = sbfi_box_tree_nearest(
@@ -221,7 +222,7 @@ static void stiffen(
 /* Parts of a foot are around the end of the lower leg as much as around the foot's joint; the same holds
  * for claws. Shells there, ahead of that joint, move with the last bone. `leaders` (shells): bone that
  * moves each. */
-static void give_to_last_bones(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
+static void assign_to_last_bones(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
     const uint32_t *leaders, sbfi_site_weights *weights) {
   for (uint32_t s = 0; s < mesh->shell_count; s++) {
     const sbfi_bone_segment *bone = &segments[leaders[s]];
@@ -261,14 +262,14 @@ static bool stiffen_shells(const sbfi_weight_mesh *mesh, const sbfi_bone_segment
     stiffen(mesh, shell, bone, weights);
     figures->rigid_shell_count++;
   }
-  if (all) give_to_last_bones(mesh, segments, leaders, weights);
+  if (all) assign_to_last_bones(mesh, segments, leaders, weights);
   return true;
 }
 
 bool sbfi_shell_weights_repair(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
     uint32_t bone_count, const sbfi_bone_reach *reach, sbfi_site_weights *weights,
     sbfi_weights_figures *figures, sbfi_arena *arena) {
-  if (!copy_from_holders(mesh, reach, weights, arena) ||
+  if (!copy_from_bone_shells(mesh, reach, weights, arena) ||
       !stiffen_shells(mesh, segments, bone_count, weights, figures, arena))
     return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {

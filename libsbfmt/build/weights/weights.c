@@ -70,7 +70,7 @@ static void measure_idle_bones(const work *w, sbfi_weights *out) {
     out->idle_lengths[b] = whole > 0 ? (float)((double)out->idle_lengths[b] / whole) : 0;
 }
 
-static bool hand_out(const work *w, sbfi_weights *out) {
+static bool copy_out(const work *w, sbfi_weights *out) {
   out->joints = allocate_output(out, out->point_count, sizeof *out->joints);
   out->weights = allocate_output(out, out->point_count, sizeof *out->weights);
   out->shell_of_point = allocate_output(out, out->point_count, sizeof *out->shell_of_point);
@@ -111,7 +111,7 @@ static sbf_status run(work *w, sbfi_weights *out, sbf_diagnostic *error) {
       return sbfi_diagnose(error, SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE,
           "none of the %u bones of the rig may hold a point: give a rig with bones that deform",
           (unsigned)w->in->bone_count);
-    if (compute(w, &out->figures) && hand_out(w, out) && count_unused(w, out)) return SBF_OK;
+    if (compute(w, &out->figures) && copy_out(w, out) && count_unused(w, out)) return SBF_OK;
   }
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while computing skin weights");
 }

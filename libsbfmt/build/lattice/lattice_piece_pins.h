@@ -1,6 +1,6 @@
 /* Additional pinned points, so that no piece of a lattice can rotate about a point or a line. */
-#ifndef SBFI_LATTICE_HOLD_H
-#define SBFI_LATTICE_HOLD_H
+#ifndef SBFI_LATTICE_PIECE_PINS_H
+#define SBFI_LATTICE_PIECE_PINS_H
 
 #include "base/memory.h"
 #include "sbfmt/asset.h"
@@ -13,7 +13,7 @@
  * belong to other sets and are not added. A piece that is too small for the width keeps fewer points. False
  * if memory runs out.
  */
-bool sbfi_lattice_hold_pieces(const sbf_level *level, const double *depths2, const uint8_t *taken,
+bool sbfi_lattice_pin_pieces(const sbf_level *level, const double *depths2, const uint8_t *taken,
     double width, uint32_t *core, uint32_t *count, sbfi_arena *scratch);
 
 #endif

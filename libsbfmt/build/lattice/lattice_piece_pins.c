@@ -1,4 +1,4 @@
-#include "build/lattice/lattice_hold.h"
+#include "build/lattice/lattice_piece_pins.h"
 
 #include <math.h>
 
@@ -11,7 +11,7 @@ typedef struct work {
   const double *depths2;
   const uint8_t *taken;
   double width;
-  uint8_t *holds, *added;
+  uint8_t *is_pinned, *added;
   uint32_t *list; /* pinned points of a piece */
 } work;
 
@@ -21,10 +21,10 @@ static double squared_from(sbf_vec3 p, const double middle[3]) {
 }
 
 /* Lists the pinned points of the piece; returns their number. */
-static uint32_t find_holding(const work *w, const uint32_t *piece, uint32_t size) {
+static uint32_t find_pinned(const work *w, const uint32_t *piece, uint32_t size) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < size; i++)
-    if (w->holds[piece[i]]) w->list[count++] = piece[i];
+    if (w->is_pinned[piece[i]]) w->list[count++] = piece[i];
   return count;
 }
 
@@ -36,7 +36,7 @@ static uint32_t nearest_off(const work *w, const uint32_t *piece, uint32_t size,
   for (uint32_t i = 0; i < size; i++) {
     uint32_t point = piece[i];
     double squared = squared_from(w->positions[point], middle);
-    if (w->holds[point] || w->taken[point] || squared >= min) continue;
+    if (w->is_pinned[point] || w->taken[point] || squared >= min) continue;
     if (sbfi_line_distance(line, w->positions[point]) < w->width) continue;
     min = squared;
     best = point;
@@ -53,14 +53,14 @@ static uint32_t deepest(const work *w, const uint32_t *piece, uint32_t size) {
 }
 
 /* A second point, and a third off the line through both; if the first two are close, one more. */
-static void hold(work *w, const uint32_t *piece, uint32_t size) {
+static void pin_piece(work *w, const uint32_t *piece, uint32_t size) {
   double middle[3] = {0};
-  uint32_t count = find_holding(w, piece, size);
+  uint32_t count = find_pinned(w, piece, size);
   if (count == 0) {
     uint32_t first = deepest(w, piece, size);
     if (first == UINT32_MAX) return;
-    w->holds[first] = w->added[first] = 1;
-    count = find_holding(w, piece, size);
+    w->is_pinned[first] = w->added[first] = 1;
+    count = find_pinned(w, piece, size);
   }
   for (uint32_t i = 0; i < count; i++) {
     sbf_vec3 p = w->positions[w->list[i]];
@@ -72,24 +72,24 @@ static void hold(work *w, const uint32_t *piece, uint32_t size) {
     if (line.width >= w->width) return;
     uint32_t next = nearest_off(w, piece, size, middle, &line);
     if (next == UINT32_MAX) return;
-    w->holds[next] = w->added[next] = 1;
+    w->is_pinned[next] = w->added[next] = 1;
     w->list[count++] = next;
   }
 }
 
-bool sbfi_lattice_hold_pieces(const sbf_level *level, const double *depths2, const uint8_t *taken,
+bool sbfi_lattice_pin_pieces(const sbf_level *level, const double *depths2, const uint8_t *taken,
     double width, uint32_t *core, uint32_t *count, sbfi_arena *scratch) {
   uint32_t points = level->positions.count, *sorted, *ends;
   work w = {.positions = level->positions.at, .depths2 = depths2, .taken = taken, .width = width};
   uint32_t *parents = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *parents);
   sorted = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *sorted);
   ends = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *ends);
-  w.holds = sbfi_arena_allocate(scratch, (size_t)points + 1, 1);
+  w.is_pinned = sbfi_arena_allocate(scratch, (size_t)points + 1, 1);
   w.added = sbfi_arena_allocate(scratch, (size_t)points + 1, 1);
   w.list = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *w.list);
-  if (!parents || !sorted || !ends || !w.holds || !w.added || !w.list) return false;
-  sbf_level_pinned_points(level, w.holds);
-  for (uint32_t i = 0; i < *count; i++) w.holds[core[i]] = w.added[core[i]] = 1;
+  if (!parents || !sorted || !ends || !w.is_pinned || !w.added || !w.list) return false;
+  sbf_level_pinned_points(level, w.is_pinned);
+  for (uint32_t i = 0; i < *count; i++) w.is_pinned[core[i]] = w.added[core[i]] = 1;
   sbfi_sets_begin(parents, points);
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)
     for (int k = 1; k < 4; k++)
@@ -103,7 +103,7 @@ bool sbfi_lattice_hold_pieces(const sbf_level *level, const double *depths2, con
   }
   for (uint32_t i = 0; i < points; i++) sorted[ends[sbfi_set_root(parents, i)]++] = i;
   for (uint32_t i = 0, from = 0; i < points; from = ends[i++])
-    if (ends[i] > from) hold(&w, sorted + from, ends[i] - from);
+    if (ends[i] > from) pin_piece(&w, sorted + from, ends[i] - from);
   *count = 0;
   for (uint32_t i = 0; i < points; i++)
     if (w.added[i]) core[(*count)++] = i;
