@@ -12,7 +12,7 @@ static sbf_fix_options options_of(const sbf_fix_options *given) {
   return options;
 }
 
-static void take_first(void *user, const sbf_diagnostic *diagnostic) {
+static void store_first(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
@@ -28,7 +28,7 @@ static sbf_status run(sbfi_repair *m, sbf_diagnostic *error) {
     sbfi_arena_free(&m->scratch);
   }
   if (m->out_of_memory) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while mending");
-  if (sbf_asset_check(m->asset, take_first, &first, 1)) {
+  if (sbf_asset_check(m->asset, store_first, &first, 1)) {
     if (error) *error = first;
     return sbf_code_find(first.code)->fault;
   }
@@ -37,9 +37,9 @@ static sbf_status run(sbfi_repair *m, sbf_diagnostic *error) {
 
 sbf_status sbf_fix(const sbf_asset *asset, const sbf_fix_options *given, sbf_asset **fixed,
     sbf_fix_result *result, sbf_diagnostic *error) {
-  sbf_fix_result unseen;
+  sbf_fix_result ignored;
   sbf_fix_options options = options_of(given);
-  sbfi_repair m = {.options = &options, .result = result ? result : &unseen};
+  sbfi_repair m = {.options = &options, .result = result ? result : &ignored};
   *fixed = NULL;
   *m.result = (sbf_fix_result){0};
   m.asset = sbf_asset_clone(asset, options.allocator);

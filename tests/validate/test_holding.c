@@ -1,5 +1,5 @@
 #include "rules.h"
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 
 START_TEST(test_weight_within_its_bounds)
 {
@@ -24,7 +24,7 @@ START_TEST(test_the_strongest_pin_counts)
                      "<pin_set maximum=\"0.5\"><points>0 1</points></pin_set></pins>")),
           false);
   uint8_t holds[4];
-  sbfi_holds_of(&asset->soft_bodies.at[0].levels.at[0], holds);
+  sbfi_find_pin_states(&asset->soft_bodies.at[0].levels.at[0], holds);
   ck_assert_int_eq(holds[0], SBFI_PINNED);
   ck_assert_int_eq(holds[1], SBFI_GOAL_PINNED);
   ck_assert_int_eq(holds[2], SBFI_FREE);

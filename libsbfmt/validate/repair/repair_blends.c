@@ -3,15 +3,15 @@
 #include <math.h>
 
 /* Levels of one index correspond only if all bodies of the mesh have equally many. */
-static bool levels_are_alike(const sbf_asset *asset, uint32_t mesh, uint32_t *count) {
+static bool levels_match(const sbf_asset *asset, uint32_t mesh, uint32_t *count) {
   *count = 0;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const sbf_level_list levels = asset->soft_bodies.at[b].levels;
-    bool carries = false;
+    bool has_embedding = false;
     for (uint32_t l = 0; l < levels.count; l++)
       for (uint32_t e = 0; e < levels.at[l].embeddings.count; e++)
-        carries |= levels.at[l].embeddings.at[e].render_mesh == (int32_t)mesh;
-    if (!carries) continue;
+        has_embedding |= levels.at[l].embeddings.at[e].render_mesh == (int32_t)mesh;
+    if (!has_embedding) continue;
     if (*count && *count != levels.count) return false;
     *count = levels.count;
   }
@@ -89,7 +89,7 @@ static void repair_mesh(sbfi_repair *m, uint32_t mesh, uint32_t level) {
 void sbfi_repair_blends(sbfi_repair *m) {
   for (uint32_t mesh = 0; mesh < m->asset->render_meshes.count; mesh++) {
     uint32_t levels;
-    if (!levels_are_alike(m->asset, mesh, &levels)) continue;
+    if (!levels_match(m->asset, mesh, &levels)) continue;
     for (uint32_t l = 0; l < levels && !m->out_of_memory; l++) repair_mesh(m, mesh, l);
   }
 }

@@ -1,12 +1,12 @@
 /* Removes pins without effect: on a point that another pin holds rigidly already, and duplicates. */
 #include "validate/repair/repair.h"
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 
 /* The pin of a point: its set from 1 and its index. */
-typedef struct holder {
+typedef struct point_pin {
   uint32_t set, index;
   bool fast;
-} holder;
+} point_pin;
 
 static bool is_same_pin(const sbf_pin_set *set, uint32_t a, uint32_t b) {
   if (sbfi_pin_weight(set, a) != sbfi_pin_weight(set, b)) return false;
@@ -16,17 +16,17 @@ static bool is_same_pin(const sbf_pin_set *set, uint32_t a, uint32_t b) {
 }
 
 static void repair_set(
-    sbfi_repair *m, sbf_pin_set *set, uint32_t number, holder *holders, const char *parent) {
+    sbfi_repair *m, sbf_pin_set *set, uint32_t number, point_pin *point_pins, const char *parent) {
   uint32_t repeated = 0, first = 0;
   uint8_t *dropped = sbfi_repair_scratch(m, set->points.count, 1);
   if (!dropped) return;
   for (uint32_t i = 0; i < set->points.count; i++) {
-    holder *by = &holders[set->points.at[i]];
+    point_pin *by = &point_pins[set->points.at[i]];
     if (by->set && (by->fast || (by->set == number + 1 && is_same_pin(set, by->index, i)))) {
       dropped[i] = 1;
       if (repeated++ == 0) first = i;
     } else {
-      *by = (holder){number + 1, i, sbfi_pin_weight(set, i) >= 1};
+      *by = (point_pin){number + 1, i, sbfi_pin_weight(set, i) >= 1};
     }
   }
   if (repeated) {
@@ -41,9 +41,9 @@ static void repair_set(
 
 static void repair_sets(
     sbfi_repair *m, const sbf_pin_set_list *sets, uint32_t point_count, const char *parent) {
-  holder *holders = sbfi_repair_scratch(m, point_count, sizeof *holders);
+  point_pin *point_pins = sbfi_repair_scratch(m, point_count, sizeof *point_pins);
   for (uint32_t s = 0; s < sets->count && !m->out_of_memory; s++)
-    repair_set(m, sbfi_writable(&sets->at[s]), s, holders, parent);
+    repair_set(m, sbfi_writable(&sets->at[s]), s, point_pins, parent);
 }
 
 void sbfi_repair_pins(sbfi_repair *m) {

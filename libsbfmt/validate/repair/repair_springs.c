@@ -2,7 +2,7 @@
  * springs it keeps the first. */
 #include "build/springs/pair_set.h"
 #include "validate/repair/repair.h"
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 
 /* A spring as set and index. */
 typedef struct spring {
@@ -14,7 +14,7 @@ static float stated(sbf_f32_list values, uint32_t index) {
   return values.count == 0 ? -1 : values.at[values.count == 1 ? 0 : index];
 }
 
-static bool say_the_same(spring a, spring b) {
+static bool are_equal(spring a, spring b) {
   return stated(a.set->rest_lengths, a.index) == stated(b.set->rest_lengths, b.index) &&
          stated(a.set->stiffness, a.index) == stated(b.set->stiffness, b.index) &&
          stated(a.set->damping, a.index) == stated(b.set->damping, b.index) &&
@@ -33,8 +33,8 @@ static spring spring_of(const sbf_level *level, uint32_t number) {
 typedef struct dropping {
   sbfi_repair *m;
   const sbf_level *level;
-  uint8_t *holds, *dropped; /* dropped: of all sets, concatenated */
-  sbfi_pair_set known;      /* numbers of springs over all sets */
+  uint8_t *pin_states, *dropped; /* dropped: of all sets, concatenated */
+  sbfi_pair_set known;           /* numbers of springs over all sets */
   const char *path;
 } dropping;
 
@@ -47,12 +47,12 @@ static void evaluate_set(dropping *d, uint32_t number, uint32_t begin) {
     if (p[0] == p[1]) {
       *dropped = 1;
       if (same++ == 0) firsts[0] = i;
-    } else if (d->holds[p[0]] == SBFI_PINNED && d->holds[p[1]] == SBFI_PINNED) {
+    } else if (d->pin_states[p[0]] == SBFI_PINNED && d->pin_states[p[1]] == SBFI_PINNED) {
       *dropped = 1;
       if (inert++ == 0) firsts[1] = i;
     } else {
       uint32_t first = sbfi_pair_set_add(&d->known, p[0], p[1], begin + i);
-      if (first == begin + i || !say_the_same(spring_of(d->level, first), (spring){set, i})) continue;
+      if (first == begin + i || !are_equal(spring_of(d->level, first), (spring){set, i})) continue;
       *dropped = 1;
       if (repeated++ == 0) firsts[2] = i;
     }
@@ -88,15 +88,15 @@ static void repair_level(sbfi_repair *m, const sbf_level *level, const char *pat
   for (uint32_t s = 0; s < level->springs.count; s++) count += level->springs.at[s].ends.count;
   dropping d = {.m = m,
       .level = level,
-      .holds = sbfi_repair_scratch(m, level->positions.count, 1),
+      .pin_states = sbfi_repair_scratch(m, level->positions.count, 1),
       .dropped = sbfi_repair_scratch(m, count, 1),
       .path = path};
-  if (!d.holds || !d.dropped) return;
+  if (!d.pin_states || !d.dropped) return;
   if (!sbfi_pair_set_init(&d.known, count, &m->scratch)) {
     m->out_of_memory = true;
     return;
   }
-  sbfi_holds_of(level, d.holds);
+  sbfi_find_pin_states(level, d.pin_states);
   for (uint32_t s = 0, begin = 0; s < level->springs.count; begin += level->springs.at[s++].ends.count)
     evaluate_set(&d, s, begin);
   for (uint32_t s = 0, begin = 0; s < level->springs.count; s++) {

@@ -15,7 +15,7 @@ static bool is_same_value(sbf_f32_list values, uint32_t a, uint32_t b) {
 }
 
 typedef struct counts {
-  uint32_t turned, first_turned, flat, first_flat, repeated, first_repeated;
+  uint32_t inverted, first_inverted, flat, first_flat, repeated, first_repeated;
 } counts;
 
 static void count(uint32_t *number, uint32_t *first, uint32_t i) {
@@ -36,7 +36,7 @@ static void check(const sbf_level *level, sbfi_key_set *known, uint8_t *dropped,
       uint32_t swap = p[2];
       p[2] = p[3];
       p[3] = swap;
-      count(&c->turned, &c->first_turned, i);
+      count(&c->inverted, &c->first_inverted, i);
     }
     uint32_t *first = sbfi_key_set_find(known, sbfi_key_sorted((sbfi_key){{p[0], p[1], p[2], p[3]}}, 4));
     if (*first == UINT32_MAX) {
@@ -76,8 +76,8 @@ static void repair_level(sbfi_repair *m, sbf_level *level, const char *path) {
     drop_values(&mesh->stiffness_damping, dropped);
     sbfi_list_drop(&mesh->tetrahedra, sizeof *mesh->tetrahedra.at, dropped);
   }
-  sbfi_count_repair(m, SBF_CODE_TETRAHEDRON_INVERTED, c.turned, path, c.first_turned,
-      "inverted tetrahedra turned round: %u", c.turned);
+  sbfi_count_repair(m, SBF_CODE_TETRAHEDRON_INVERTED, c.inverted, path, c.first_inverted,
+      "inverted tetrahedra turned round: %u", c.inverted);
   sbfi_count_repair(m, SBF_CODE_TETRAHEDRON_INVERTED, c.flat, path, c.first_flat,
       "tetrahedra without volume taken out: %u", c.flat);
   sbfi_count_repair(m, SBF_CODE_TETRAHEDRON_DUPLICATE, c.repeated, path, c.first_repeated,

@@ -12,12 +12,12 @@ typedef struct shells {
   const sbf_polygon_mesh *mesh;
   sbfi_topology t;
   uint32_t *queue; /* (polygon_count) the current shell */
-  uint8_t *seen, *turned;
+  uint8_t *seen, *flipped;
 } shells;
 
 typedef struct shell {
   uint32_t begin, end; /* range of the queue */
-  bool clashes, closed, one_sided;
+  bool has_conflict, closed, one_sided;
 } shell;
 
 static uint32_t polygons_at(const sbfi_topology *t, uint32_t edge) {
@@ -35,15 +35,15 @@ static void visit_edge(shells *s, shell *of, uint32_t polygon, uint32_t edge) {
   const uint32_t *both = &s->t.edge_polygons[s->t.edge_polygon_begins[edge]];
   uint32_t other = both[0] == polygon ? both[1] : both[0];
   if (other == polygon) return; /* it traverses the edge twice, as around a bridged hole */
-  bool clash = is_forward(s, polygon, edge) == is_forward(s, other, edge);
-  uint8_t wanted = s->turned[polygon] ^ clash;
-  of->clashes |= clash;
+  bool is_opposite = is_forward(s, polygon, edge) == is_forward(s, other, edge);
+  uint8_t wanted = s->flipped[polygon] ^ is_opposite;
+  of->has_conflict |= is_opposite;
   if (s->seen[other]) {
-    of->one_sided |= s->turned[other] != wanted;
+    of->one_sided |= s->flipped[other] != wanted;
     return;
   }
   s->seen[other] = 1;
-  s->turned[other] = wanted;
+  s->flipped[other] = wanted;
   s->queue[of->end++] = other;
 }
 
@@ -66,8 +66,8 @@ static shell collect(shells *s, uint32_t first, uint32_t begin) {
 }
 
 /* Volume of the shell after flipping, and the fraction of its area that would be flipped. */
-static void measure(const shells *s, const shell *of, double *volume, double *turned_fraction) {
-  double area = 0, turned = 0;
+static void measure(const shells *s, const shell *of, double *volume, double *flipped_fraction) {
+  double area = 0, flipped = 0;
   sbfi_d3 origin =
       sbfi_d3_of(s->mesh->positions.at[s->mesh->polygon_points.at[s->t.corner_begins[s->queue[of->begin]]]]);
   *volume = 0;
@@ -77,26 +77,26 @@ static void measure(const shells *s, const shell *of, double *volume, double *tu
     sbfi_d3 middle = sbfi_polygon_middle(s->mesh->positions.at, corners, size);
     sbfi_d3 normal = sbfi_polygon_area(s->mesh->positions.at, corners, size, middle);
     double part = sbfi_d3_dot(sbfi_d3_sub(middle, origin), normal) / 3, length = sbfi_d3_length(normal);
-    *volume += s->turned[p] ? -part : part;
-    turned += s->turned[p] ? length : 0;
+    *volume += s->flipped[p] ? -part : part;
+    flipped += s->flipped[p] ? length : 0;
     area += length;
   }
-  *turned_fraction = area > 0 ? turned / area : 0;
+  *flipped_fraction = area > 0 ? flipped / area : 0;
 }
 
 static void resolve(shells *s, const shell *of, bool alone) {
-  double volume, turned_fraction;
-  measure(s, of, &volume, &turned_fraction);
+  double volume, flipped_fraction;
+  measure(s, of, &volume, &flipped_fraction);
   bool outwards_known = of->closed && alone && volume != 0; /* a shell inside another may be a hole */
-  bool change = outwards_known ? volume < 0 : turned_fraction > 0.5;
-  for (uint32_t i = of->begin; i < of->end; i++) s->turned[s->queue[i]] ^= change;
+  bool change = outwards_known ? volume < 0 : flipped_fraction > 0.5;
+  for (uint32_t i = of->begin; i < of->end; i++) s->flipped[s->queue[i]] ^= change;
 }
 
 static void forget(shells *s, const shell *of) {
-  for (uint32_t i = of->begin; i < of->end; i++) s->turned[s->queue[i]] = 0;
+  for (uint32_t i = of->begin; i < of->end; i++) s->flipped[s->queue[i]] = 0;
 }
 
-static void turn(const sbf_polygon_mesh *mesh, uint32_t begin, uint32_t size) {
+static void flip_polygon(const sbf_polygon_mesh *mesh, uint32_t begin, uint32_t size) {
   uint32_t *corners = (uint32_t *)sbfi_writable(mesh->polygon_points.at) + begin;
   for (uint32_t low = 1, high = size - 1; low < high; low++, high--) {
     uint32_t swap = corners[low];
@@ -105,18 +105,18 @@ static void turn(const sbf_polygon_mesh *mesh, uint32_t begin, uint32_t size) {
   }
 }
 
-static uint32_t turn_marked(const shells *s, uint32_t *first) {
+static uint32_t flip_marked(const shells *s, uint32_t *first) {
   uint32_t count = 0;
   for (uint32_t p = 0; p < s->t.polygon_count; p++) {
-    if (!s->turned[p]) continue;
-    turn(s->mesh, s->t.corner_begins[p], s->t.corner_begins[p + 1] - s->t.corner_begins[p]);
+    if (!s->flipped[p]) continue;
+    flip_polygon(s->mesh, s->t.corner_begins[p], s->t.corner_begins[p + 1] - s->t.corner_begins[p]);
     if (count++ == 0) *first = p;
   }
   return count;
 }
 
 /* Flips a surface that faces inwards as a whole after its polygons agree. */
-static uint32_t turn_outwards(const sbf_soft_body *body, const shells *s, bool all_closed) {
+static uint32_t flip_outwards(const sbf_soft_body *body, const shells *s, bool all_closed) {
   sbf_body_measures is;
   sbf_surface_measures surface;
   sbf_body_measure(body, &is);
@@ -124,7 +124,7 @@ static uint32_t turn_outwards(const sbf_soft_body *body, const shells *s, bool a
   bool one = s->t.component_count == 1;
   if (is.sheet || surface.volume >= 0 || !(one || all_closed)) return 0;
   for (uint32_t p = 0; p < s->t.polygon_count; p++)
-    turn(s->mesh, s->t.corner_begins[p], s->t.corner_begins[p + 1] - s->t.corner_begins[p]);
+    flip_polygon(s->mesh, s->t.corner_begins[p], s->t.corner_begins[p + 1] - s->t.corner_begins[p]);
   return s->t.polygon_count;
 }
 
@@ -134,7 +134,7 @@ static void repair_surface(sbfi_repair *m, const sbf_soft_body *body, const char
   bool all_closed = true, one_sided = false;
   s.queue = sbfi_repair_scratch(m, polygons, sizeof *s.queue);
   s.seen = sbfi_repair_scratch(m, polygons, 1);
-  s.turned = sbfi_repair_scratch(m, polygons, 1);
+  s.flipped = sbfi_repair_scratch(m, polygons, 1);
   shell *all = sbfi_repair_scratch(m, polygons, sizeof *all);
   if (m->out_of_memory || polygons == 0) return;
   if (!sbfi_topology_build(&s.t, s.mesh, &m->scratch)) {
@@ -149,15 +149,15 @@ static void repair_surface(sbfi_repair *m, const sbf_soft_body *body, const char
   for (uint32_t i = 0; i < shell_count; i++) {
     all_closed &= all[i].closed;
     one_sided |= all[i].one_sided;
-    if (all[i].clashes && !all[i].one_sided)
+    if (all[i].has_conflict && !all[i].one_sided)
       resolve(&s, &all[i], shell_count == 1);
     else
       forget(&s, &all[i]);
   }
-  uint32_t turned = turn_marked(&s, &first);
-  sbfi_count_repair(m, SBF_CODE_SURFACE_WINDING, turned, path, first, "%u polygon%s of '%s' turned round",
-      turned, sbfi_plural(turned), sbfi_label(body->name, body->id));
-  uint32_t outwards = one_sided ? 0 : turn_outwards(body, &s, all_closed);
+  uint32_t flipped = flip_marked(&s, &first);
+  sbfi_count_repair(m, SBF_CODE_SURFACE_WINDING, flipped, path, first, "%u polygon%s of '%s' turned round",
+      flipped, sbfi_plural(flipped), sbfi_label(body->name, body->id));
+  uint32_t outwards = one_sided ? 0 : flip_outwards(body, &s, all_closed);
   sbfi_count_repair(m, SBF_CODE_SURFACE_INSIDE_OUT, outwards, path, -1,
       "all polygons of '%s' turned outwards", sbfi_label(body->name, body->id));
 }

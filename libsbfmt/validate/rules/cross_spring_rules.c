@@ -2,7 +2,7 @@
  * duplicates. */
 #include "build/geometry/key_set.h"
 #include "mechanics/vector.h"
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 #include "validate/validation.h"
 
 typedef struct side {
@@ -20,7 +20,7 @@ static side side_of(sbfi_validation *v, int32_t body, uint32_t level, const char
   }
   s.level = &at->levels.at[level];
   s.holds = sbfi_scratch(v, s.level->positions.count, 1);
-  if (s.holds) sbfi_holds_of(s.level, s.holds);
+  if (s.holds) sbfi_find_pin_states(s.level, s.holds);
   return s;
 }
 

@@ -11,7 +11,7 @@ static const float MIN_WEIGHT = -0.5f, MAX_WEIGHT = 1.5f, WEIGHT_TOLERANCE = 1e-
 static const double OFF_TOLERANCE = 0.01; /* fraction of the mesh's size */
 
 /* The mesh with embedded vertices: a render mesh, or a body's own surface. */
-typedef struct carried {
+typedef struct embedded_mesh {
   sbfi_validation *v;
   sbf_vec3_list positions;
   const char *name;
@@ -21,16 +21,17 @@ typedef struct carried {
   uint32_t *stamps; /* number from 1 of the last embedding with the vertex */
   uint32_t stamp;
   bool broken; /* an embedding has an invalid length: the sums are unknown */
-} carried;
+} embedded_mesh;
 
-static void mark_seen(carried *c, const sbf_u32_list *corners) {
+static void mark_seen(embedded_mesh *c, const sbf_u32_list *corners) {
   for (uint32_t i = 0; i < corners->count; i++)
     if (corners->at[i] < c->positions.count) c->unseen[corners->at[i]] = 0;
 }
 
-static bool carried_init(carried *c, sbfi_validation *v, const sbf_polygon_mesh *mesh, const char *name) {
+static bool embedded_mesh_init(
+    embedded_mesh *c, sbfi_validation *v, const sbf_polygon_mesh *mesh, const char *name) {
   uint32_t count = mesh->positions.count;
-  *c = (carried){.v = v,
+  *c = (embedded_mesh){.v = v,
       .positions = mesh->positions,
       .name = name,
       .size = sbfi_extent(mesh->positions),
@@ -53,7 +54,7 @@ static double distance_off(const sbf_level *level, const sbf_embedding *e, uint3
 }
 
 /* True if the weights are good enough to compute a position. */
-static bool check_weights(const carried *c, const sbf_embedding *e, uint32_t i, const char *path) {
+static bool check_weights(const embedded_mesh *c, const sbf_embedding *e, uint32_t i, const char *path) {
   sbf_vec4 w = e->weights.at[i];
   float sum = w.x + w.y + w.z + w.w;
   float far = fmaxf(fmaxf(fabsf(w.x), fabsf(w.y)), fmaxf(fabsf(w.z), fabsf(w.w)));
@@ -69,7 +70,8 @@ static bool check_weights(const carried *c, const sbf_embedding *e, uint32_t i, 
   return true;
 }
 
-static void check_embedding(carried *c, const sbf_level *level, const sbf_embedding *e, const char *path) {
+static void check_embedding(
+    embedded_mesh *c, const sbf_level *level, const sbf_embedding *e, const char *path) {
   sbfi_path weights = sbfi_path_of("%s/weights", path), vertices = sbfi_path_of("%s/vertices", path);
   uint32_t off = 0, first = 0;
   double max = 0;
@@ -111,8 +113,8 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
   const sbf_render_mesh *at = &asset->render_meshes.at[mesh];
   uint32_t partly = 0, none = 0;
   bool found = false;
-  carried c;
-  if (!carried_init(&c, v, &at->mesh, sbfi_label(at->name, at->id))) return;
+  embedded_mesh c;
+  if (!embedded_mesh_init(&c, v, &at->mesh, sbfi_label(at->name, at->id))) return;
   for (uint32_t i = 0; i < at->levels.count; i++) mark_seen(&c, &at->levels.at[i].polygon_points);
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
@@ -143,10 +145,10 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
 static void check_surface(sbfi_validation *v, uint32_t body, uint32_t l) {
   const sbf_soft_body *at = &v->asset->soft_bodies.at[body];
   const sbf_level *level = &at->levels.at[l];
-  carried c = {.fractions = NULL};
+  embedded_mesh c = {.fractions = NULL};
   for (uint32_t e = 0; e < level->embeddings.count; e++) {
     if (level->embeddings.at[e].render_mesh != SBF_NONE) continue;
-    if (!c.fractions && !carried_init(&c, v, &at->surface, sbfi_label(at->name, at->id))) return;
+    if (!c.fractions && !embedded_mesh_init(&c, v, &at->surface, sbfi_label(at->name, at->id))) return;
     check_embedding(&c, level, &level->embeddings.at[e],
         sbfi_path_of("/sbf/soft_body[%u]/level[%u]/embedding[%u]", body + 1, l + 1, e + 1).text);
   }

@@ -36,7 +36,7 @@ static void find_slivers(sbfi_validation *v, const sbf_level *level, const char 
 }
 
 /* Orientation of a sorted face in a tetrahedron: the two tetrahedra at a face have opposite ones. */
-static bool turns_upwards(const uint32_t p[4], int face) {
+static bool faces_upwards(const uint32_t p[4], int face) {
   uint32_t a = p[faces[face][0]], b = p[faces[face][1]], c = p[faces[face][2]];
   return (a < b) + (b < c) + (c < a) == 2;
 }
@@ -52,7 +52,7 @@ static void use_face(sbfi_validation *v, const sbf_uint4_list *tetrahedra, uint3
   const uint32_t *p = tetrahedra->at[i].at;
   sbfi_key key = {{p[faces[face][0]], p[faces[face][1]], p[faces[face][2]], UINT32_MAX}};
   uint32_t *slots = sbfi_key_set_find(set, sbfi_key_sorted(key, 3));
-  bool upwards = turns_upwards(p, face);
+  bool upwards = faces_upwards(p, face);
   if (*slots == UINT32_MAX) {
     *slots = (*use_count)++;
     uses[*slots] = (face_use){i, upwards, false};

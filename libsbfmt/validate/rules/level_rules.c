@@ -2,7 +2,7 @@
 #include "base/union_find.h"
 #include "mechanics/level_points.h"
 #include "mechanics/vector.h"
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
@@ -68,7 +68,7 @@ static void join_elements(pieces *p, const sbf_level *level) {
 
 /* Springs to other bodies count as pins: does not follow them. */
 static void mark_cross_springs(
-    const sbf_asset *asset, uint32_t body, uint32_t level, uint32_t point_count, uint8_t *holds) {
+    const sbf_asset *asset, uint32_t body, uint32_t level, uint32_t point_count, uint8_t *pin_states) {
   for (uint32_t c = 0; c < asset->cross_springs.count; c++) {
     const sbf_cross_springs *set = &asset->cross_springs.at[c];
     for (int end = 0; end < 2; end++) {
@@ -76,14 +76,14 @@ static void mark_cross_springs(
       if (named != (int32_t)body || (end ? set->level_b : set->level_a) != level) continue;
       for (uint32_t i = 0; i < set->ends.count; i++) {
         uint32_t point = set->ends.at[i].at[end];
-        if (point < point_count && holds[point] == SBFI_FREE) holds[point] = SBFI_GOAL_PINNED;
+        if (point < point_count && pin_states[point] == SBFI_FREE) pin_states[point] = SBFI_GOAL_PINNED;
       }
     }
   }
 }
 
 static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sbf_level *level,
-    const uint8_t *holds, const char *path) {
+    const uint8_t *pin_states, const char *path) {
   uint32_t n = level->positions.count, loose = 0, first = 0, adrift = 0, anchored = 0;
   pieces p = {sbfi_scratch(v, n, sizeof *p.parents), sbfi_scratch(v, n, 1)};
   uint8_t *is_point_pinned = sbfi_scratch(v, n, 1); /* at the roots of pieces */
@@ -91,9 +91,9 @@ static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sb
   sbfi_sets_begin(p.parents, n);
   join_elements(&p, level);
   for (uint32_t i = 0; i < n; i++)
-    if (holds[i] != SBFI_FREE) is_point_pinned[sbfi_set_root(p.parents, i)] = 1;
+    if (pin_states[i] != SBFI_FREE) is_point_pinned[sbfi_set_root(p.parents, i)] = 1;
   for (uint32_t i = 0; i < n; i++) {
-    if (!p.used[i] && holds[i] == SBFI_FREE && loose++ == 0) first = i;
+    if (!p.used[i] && pin_states[i] == SBFI_FREE && loose++ == 0) first = i;
     if (!p.used[i] || p.parents[i] != i) continue;
     adrift += !is_point_pinned[i];
     anchored += is_point_pinned[i];
@@ -108,9 +108,10 @@ static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sb
         sbfi_label(body->name, body->id), adrift + anchored, adrift, adrift == 1 ? "s" : "");
 }
 
-static void check_masses(sbfi_validation *v, const sbf_level *level, const uint8_t *holds, const char *path) {
+static void check_masses(
+    sbfi_validation *v, const sbf_level *level, const uint8_t *pin_states, const char *path) {
   for (uint32_t i = 0; i < level->masses.count; i++)
-    if (level->masses.at[i] == 0 && holds[i] != SBFI_PINNED)
+    if (level->masses.at[i] == 0 && pin_states[i] != SBFI_PINNED)
       sbfi_found(v, SBF_CODE_POINT_NO_MASS, path, i, "free point %u has the mass 0", i);
 }
 
@@ -118,15 +119,15 @@ static void check_level(sbfi_validation *v, uint32_t body, uint32_t number) {
   const sbf_soft_body *at = &v->asset->soft_bodies.at[body];
   const sbf_level *level = &at->levels.at[number];
   sbfi_path path = sbfi_path_of("/sbf/soft_body[%u]/level[%u]", body + 1, number + 1);
-  uint8_t *holds = sbfi_scratch(v, level->positions.count, 1);
-  if (!holds) return;
-  sbfi_holds_of(level, holds);
-  mark_cross_springs(v->asset, body, number, level->positions.count, holds);
+  uint8_t *pin_states = sbfi_scratch(v, level->positions.count, 1);
+  if (!pin_states) return;
+  sbfi_find_pin_states(level, pin_states);
+  mark_cross_springs(v->asset, body, number, level->positions.count, pin_states);
   check_map(v, level, sbfi_path_of("%s/new_from_old", path.text).text);
   check_positions(v, at, level, sbfi_path_of("%s/positions", path.text).text);
   if (level->model == SBF_ELASTIC_MODEL_JIGGLE) return; /* it moves rigidly */
-  check_pieces(v, at, level, holds, path.text);
-  check_masses(v, level, holds, sbfi_path_of("%s/masses", path.text).text);
+  check_pieces(v, at, level, pin_states, path.text);
+  check_masses(v, level, pin_states, sbfi_path_of("%s/masses", path.text).text);
 }
 
 static uint64_t element_count(const sbf_level *level) {

@@ -1,14 +1,14 @@
 /* Checks pins and attachments: sets whose frames match at rest, points pinned once, sections that are
  * pinned. */
 #include "build/geometry/hulls.h"
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
-typedef struct holder { /* the pin set of a point */
-  uint32_t set;         /* from 1; 0: none */
+typedef struct point_pin { /* the pin set of a point */
+  uint32_t set;            /* from 1; 0: none */
   bool fast;
-} holder;
+} point_pin;
 
 /* Positions of points in sets: of the body or of a level. */
 typedef struct pinned_point {
@@ -56,26 +56,26 @@ static void check_offsets(const pinned_point *h, const sbf_pin_set *set, const c
 }
 
 static void check_points(
-    const pinned_point *h, const sbf_pin_set *set, uint32_t number, holder *holders, const char *path) {
+    const pinned_point *h, const sbf_pin_set *set, uint32_t number, point_pin *point_pins, const char *path) {
   sbfi_path points = sbfi_path_of("%s/points", path);
-  bool holds = false;
+  bool has_weight = false;
   for (uint32_t i = 0; i < set->points.count; i++) {
     uint32_t p = set->points.at[i];
     float weight = sbfi_pin_weight(set, i);
-    holds |= weight > 0;
-    if (holders[p].set && (holders[p].fast || holders[p].set == number + 1))
+    has_weight |= weight > 0;
+    if (point_pins[p].set && (point_pins[p].fast || point_pins[p].set == number + 1))
       sbfi_found(h->v, SBF_CODE_PIN_REPEATED, points.text, i, "point %u of '%s' is held by set %u already", p,
-          sbfi_label(h->body->name, h->body->id), holders[p].set);
+          sbfi_label(h->body->name, h->body->id), point_pins[p].set);
     else
-      holders[p] = (holder){number + 1, weight >= 1};
+      point_pins[p] = (point_pin){number + 1, weight >= 1};
   }
-  if (set->points.count && !holds)
+  if (set->points.count && !has_weight)
     sbfi_found(h->v, SBF_CODE_PIN_NO_WEIGHT, path, -1, "pin set '%s' has the weight 0 everywhere", set->name);
 }
 
 static void check_sets(const pinned_point *h, const sbf_pin_set_list *sets) {
-  holder *holders = sbfi_scratch(h->v, h->count, sizeof *holders);
-  if (!holders) return;
+  point_pin *point_pins = sbfi_scratch(h->v, h->count, sizeof *point_pins);
+  if (!point_pins) return;
   for (uint32_t s = 0; s < sets->count; s++) {
     const sbf_pin_set *set = &sets->at[s];
     sbfi_path path = sbfi_path_of("%s/pins/pin_set[%u]", h->parent, s + 1);
@@ -92,12 +92,12 @@ static void check_sets(const pinned_point *h, const sbf_pin_set_list *sets) {
           sbfi_bone_label(h->v->asset, (uint32_t)set->bone),
           sbfi_label(h->v->asset->rigid_bodies.at[set->rigid_body].name,
               h->v->asset->rigid_bodies.at[set->rigid_body].id));
-    check_points(h, set, s, holders, path.text);
+    check_points(h, set, s, point_pins, path.text);
     check_offsets(h, set, path.text);
   }
 }
 
-static bool holds_some(const sbf_soft_body *body, const sbf_polygon_mesh *hull) {
+static bool contains_some(const sbf_soft_body *body, const sbf_polygon_mesh *hull) {
   for (uint32_t i = 0; i < body->surface.positions.count; i++)
     if (sbfi_hull_contains(hull, body->surface.positions.at[i])) return true;
   for (uint32_t i = 0; i < body->interior.count; i++)
@@ -121,7 +121,7 @@ static void check_attachments(sbfi_validation *v, const sbf_soft_body *body, con
       sbfi_found(v, SBF_CODE_ATTACHMENT_NO_HULL, path.text, -1,
           "attachment '%s' of '%s' names the rigid body '%s', which has no hull", rule->name,
           sbfi_label(body->name, body->id), sbfi_label(by->name, by->id));
-    else if (!holds_some(body, by->hull))
+    else if (!contains_some(body, by->hull))
       sbfi_found(v, SBF_CODE_ATTACHMENT_EMPTY, path.text, -1, "no point of '%s' lies inside the hull of '%s'",
           sbfi_label(body->name, body->id), sbfi_label(by->name, by->id));
   }

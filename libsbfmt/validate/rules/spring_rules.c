@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "build/springs/pair_set.h"
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 #include "validate/rules/strain_order.h"
 #include "validate/validation.h"
 
@@ -89,7 +89,7 @@ static void find_duplicates(const spring_level *l) {
 static void check_level(sbfi_validation *v, const sbf_level *level, const char *path) {
   spring_level l = {v, level, sbfi_scratch(v, level->positions.count, 1), path};
   if (!l.holds) return;
-  sbfi_holds_of(level, l.holds);
+  sbfi_find_pin_states(level, l.holds);
   for (uint32_t s = 0; s < level->springs.count; s++) check_set(&l, s);
   find_duplicates(&l);
   if (level->model == SBF_ELASTIC_MODEL_SPRINGS && level->springs.count == 0)

@@ -24,7 +24,7 @@ static uint32_t polygons_at(const sbfi_topology *t, uint32_t edge) {
 }
 
 /* Finds polygons at edges that two others already share, with an edge of their own. */
-static void find_stray_polygons(const surface *s) {
+static void find_extra_polygons(const surface *s) {
   const sbfi_topology *t = &s->t;
   for (uint32_t p = 0; p < t->polygon_count; p++) {
     uint32_t crowded = 0, lonely = 0;
@@ -93,7 +93,7 @@ static void find_repeated(const surface *s) {
 }
 
 /* Second polygon at the first edge that two traverse in the same direction. */
-static uint32_t first_clash(const surface *s) {
+static uint32_t first_opposite_pair(const surface *s) {
   const sbfi_topology *t = &s->t;
   const uint32_t *corners = s->body->surface.polygon_points.at;
   for (uint32_t p = 0; p < t->polygon_count; p++)
@@ -109,7 +109,7 @@ static uint32_t first_clash(const surface *s) {
 
 static void check_winding(const surface *s) {
   if (s->t.clashing_edge_count == 0) return;
-  uint32_t p = first_clash(s);
+  uint32_t p = first_opposite_pair(s);
   sbfi_found(s->v, SBF_CODE_SURFACE_WINDING, s->polygons.text, p,
       "%u edge%s of '%s' lie%s between polygons that face opposite ways, the first at polygon %u",
       s->t.clashing_edge_count, sbfi_plural(s->t.clashing_edge_count), s->name,
@@ -157,7 +157,7 @@ static void find_crossings(const surface *s) {
 }
 
 /* Finds interior points outside the surface by more than rounding. */
-static void find_outsiders(const surface *s, const sbf_body_measures *measures) {
+static void find_outside_points(const surface *s, const sbf_body_measures *measures) {
   const sbf_soft_body *body = s->body;
   sbfi_triangle_tree tree;
   if (body->interior.count == 0 || s->t.boundary_edge_count || s->t.nonmanifold_edge_count) return;
@@ -189,7 +189,7 @@ static void check_volume(const surface *s, const sbf_body_measures *measures) {
     sbfi_found(
         s->v, SBF_CODE_SURFACE_INSIDE_OUT, s->mesh.text, -1, "the polygons of '%s' face inwards", s->name);
   find_crossings(s);
-  find_outsiders(s, measures);
+  find_outside_points(s, measures);
 }
 
 static void check_surface(sbfi_validation *v, uint32_t number) {
@@ -216,7 +216,7 @@ static void check_surface(sbfi_validation *v, uint32_t number) {
   find_unused(&s);
   find_degenerate(&s);
   find_repeated(&s);
-  find_stray_polygons(&s);
+  find_extra_polygons(&s);
   check_winding(&s);
   find_seams(&s);
   if (s.t.component_count > 1)

@@ -1,5 +1,5 @@
 /* Checks weight maps: factors that leave mass in the body, on attributes that are set. */
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 #include "validate/validation.h"
 
 static bool some_set_yields(const sbf_soft_body *body, bool tears) {

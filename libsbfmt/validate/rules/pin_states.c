@@ -1,4 +1,4 @@
-#include "validate/rules/holding.h"
+#include "validate/rules/pin_states.h"
 
 float sbfi_pin_weight(const sbf_pin_set *set, uint32_t pin) {
   float weight = set->weights.count == 0 ? 1 : set->weights.at[set->weights.count == 1 ? 0 : pin];
@@ -7,14 +7,14 @@ float sbfi_pin_weight(const sbf_pin_set *set, uint32_t pin) {
   return weight;
 }
 
-void sbfi_holds_of(const sbf_level *level, uint8_t *holds) {
-  for (uint32_t i = 0; i < level->positions.count; i++) holds[i] = SBFI_FREE;
+void sbfi_find_pin_states(const sbf_level *level, uint8_t *pin_states) {
+  for (uint32_t i = 0; i < level->positions.count; i++) pin_states[i] = SBFI_FREE;
   for (uint32_t s = 0; s < level->pins.count; s++) {
     const sbf_pin_set *set = &level->pins.at[s];
     for (uint32_t i = 0; i < set->points.count; i++) {
       float weight = sbfi_pin_weight(set, i);
-      uint8_t hold = weight >= 1 ? SBFI_PINNED : weight > 0 ? SBFI_GOAL_PINNED : SBFI_FREE;
-      if (hold > holds[set->points.at[i]]) holds[set->points.at[i]] = hold;
+      uint8_t pin_state = weight >= 1 ? SBFI_PINNED : weight > 0 ? SBFI_GOAL_PINNED : SBFI_FREE;
+      if (pin_state > pin_states[set->points.at[i]]) pin_states[set->points.at[i]] = pin_state;
     }
   }
 }
