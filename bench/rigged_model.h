@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "build/weights/weights.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 typedef struct rigged_model {
   sbf_asset *asset;

@@ -26,7 +26,7 @@ static inline uint64_t mix(uint64_t lane, uint64_t number) {
   return rotate(lane + number * prime2, 31) * prime1;
 }
 
-static void take_stripes(uint64_t lane[4], const uint8_t *at, size_t count) {
+static void add_stripes(uint64_t lane[4], const uint8_t *at, size_t count) {
   uint64_t a = lane[0], b = lane[1], c = lane[2], d = lane[3];
   for (; count; count--, at += STRIPE) {
     a = mix(a, load64(at));
@@ -52,14 +52,14 @@ void sbfi_hash64_add_bytes(sbfi_hash64 *hash, const void *bytes, size_t size) {
   size_t pending = hash->size % STRIPE;
   hash->size += size;
   if (pending) {
-    size_t taken = size < STRIPE - pending ? size : STRIPE - pending;
-    if (taken) memcpy(hash->pending + pending, at, taken);
-    if (pending + taken < STRIPE) return;
-    take_stripes(hash->lane, hash->pending, 1);
-    at += taken;
-    size -= taken;
+    size_t used = size < STRIPE - pending ? size : STRIPE - pending;
+    if (used) memcpy(hash->pending + pending, at, used);
+    if (pending + used < STRIPE) return;
+    add_stripes(hash->lane, hash->pending, 1);
+    at += used;
+    size -= used;
   }
-  take_stripes(hash->lane, at, size / STRIPE);
+  add_stripes(hash->lane, at, size / STRIPE);
   if (size % STRIPE) memcpy(hash->pending, at + size / STRIPE * STRIPE, size % STRIPE);
 }
 
@@ -71,7 +71,7 @@ static bool is_little_endian(void) {
 }
 
 /* Adds numbers of `width` bytes as little-endian bytes. */
-static void take_numbers(sbfi_hash64 *hash, const void *numbers, size_t count, size_t width) {
+static void add_numbers(sbfi_hash64 *hash, const void *numbers, size_t count, size_t width) {
   if (is_little_endian()) {
     sbfi_hash64_add_bytes(hash, numbers, count * width);
     return;
@@ -85,19 +85,19 @@ static void take_numbers(sbfi_hash64 *hash, const void *numbers, size_t count, s
 }
 
 void sbfi_hash64_add_u32(sbfi_hash64 *hash, const uint32_t *numbers, size_t count) {
-  take_numbers(hash, numbers, count, sizeof *numbers);
+  add_numbers(hash, numbers, count, sizeof *numbers);
 }
 
 void sbfi_hash64_add_u64(sbfi_hash64 *hash, const uint64_t *numbers, size_t count) {
-  take_numbers(hash, numbers, count, sizeof *numbers);
+  add_numbers(hash, numbers, count, sizeof *numbers);
 }
 
 void sbfi_hash64_add_f32(sbfi_hash64 *hash, const float *numbers, size_t count) {
-  take_numbers(hash, numbers, count, sizeof *numbers);
+  add_numbers(hash, numbers, count, sizeof *numbers);
 }
 
 void sbfi_hash64_add_f64(sbfi_hash64 *hash, const double *numbers, size_t count) {
-  take_numbers(hash, numbers, count, sizeof *numbers);
+  add_numbers(hash, numbers, count, sizeof *numbers);
 }
 
 uint64_t sbfi_hash64_value(const sbfi_hash64 *hash) {

@@ -30,7 +30,7 @@ static uint32_t rotate(uint32_t x, int right) {
     h += (rotate(a, 2) ^ rotate(a, 13) ^ rotate(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));                     \
   } while (0)
 
-static void take_block(uint32_t state[8], const uint8_t block[64]) {
+static void process_block(uint32_t state[8], const uint8_t block[64]) {
   uint32_t schedule[64];
   for (int i = 0; i < 16; i++)
     schedule[i] = (uint32_t)block[4 * i] << 24 | (uint32_t)block[4 * i + 1] << 16 |
@@ -72,14 +72,14 @@ void sbfi_sha256_update(sbfi_sha256 *hash, const void *bytes, size_t size) {
   size_t pending = hash->size % 64;
   hash->size += size;
   if (pending) {
-    size_t taken = size < 64 - pending ? size : 64 - pending;
-    if (taken) memcpy(hash->pending + pending, at, taken);
-    if (pending + taken < 64) return;
-    take_block(hash->state, hash->pending);
-    at += taken;
-    size -= taken;
+    size_t used = size < 64 - pending ? size : 64 - pending;
+    if (used) memcpy(hash->pending + pending, at, used);
+    if (pending + used < 64) return;
+    process_block(hash->state, hash->pending);
+    at += used;
+    size -= used;
   }
-  for (; size >= 64; at += 64, size -= 64) take_block(hash->state, at);
+  for (; size >= 64; at += 64, size -= 64) process_block(hash->state, at);
   if (size) memcpy(hash->pending, at, size);
 }
 

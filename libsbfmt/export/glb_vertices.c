@@ -198,7 +198,7 @@ static void write_skin(const vertices *v, sbfi_text *attributes) {
 }
 
 /* Offsets of the points of `shown` in a target: shape keys come first, then the motion's frames. */
-static void take_target(const vertices *v, uint32_t target, sbf_vec3 *of_full, sbf_vec3 *of_shown) {
+static void get_target_offsets(const vertices *v, uint32_t target, sbf_vec3 *of_full, sbf_vec3 *of_shown) {
   const sbfi_glb_mesh *mesh = v->mesh;
   uint32_t keys = mesh->full->shape_keys.count;
   if (target >= keys) {
@@ -218,7 +218,7 @@ static void write_targets(const vertices *v, sbfi_text *text) {
   sbf_vec3 *of_shown = sbfi_glb_allocate(v->g, mesh->shown->mesh.positions.count, sizeof *of_shown);
   sbf_vec3 *at = sbfi_glb_allocate(v->g, v->count, sizeof *at);
   for (uint32_t t = 0; t < mesh->target_count && !v->g->failed; t++) {
-    take_target(v, t, of_full, of_shown);
+    get_target_offsets(v, t, of_full, of_shown);
     for (uint32_t i = 0; i < v->count; i++) at[i] = of_shown[point_of(v, i)];
     uint32_t number = sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
     sbfi_export_print(text, "%s{\"POSITION\":%u", t ? "," : ",\"targets\":[", number);

@@ -19,7 +19,7 @@ typedef struct mjcf_writer {
   sbfi_export *e;
   sbfi_arena scratch;
   mjcf_flex *flexes;   /* (soft bodies) */
-  bool *bone_holds;    /* (bones) */
+  bool *bone_has_pins; /* (bones) */
   bool *bone_elastic;  /* (bones) moves points of elastic elements, which rules out a mocap body in MuJoCo */
   bool *rigid_elastic; /* (rigid bodies) the same */
   uint32_t *first, *next; /* (rigid bodies + 1), (2 * joints): lists of the joints' ends at each body; the

@@ -23,7 +23,7 @@ static void choose_level(mjcf_flex *flex, const sbf_soft_body *body) {
 }
 
 /* Marks the set's points, and places each at its offset in the frame. */
-static void take_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
+static void apply_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
   const sbf_pin_set *set = &flex->level->pins.at[s];
   const sbf_asset *asset = w->e->asset;
   for (uint32_t k = 0; k < set->points.count; k++) {
@@ -33,7 +33,7 @@ static void take_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
       continue;
     }
     flex->holder[p] = s;
-    if (set->bone >= 0) w->bone_holds[set->bone] = true;
+    if (set->bone >= 0) w->bone_has_pins[set->bone] = true;
     if (set->bone >= 0 && flex->dim > 1) w->bone_elastic[set->bone] = true;
     if (set->rigid_body >= 0 && flex->dim > 1) w->rigid_elastic[set->rigid_body] = true;
     if (!set->offsets.count) continue;
@@ -48,7 +48,7 @@ static void take_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
   }
 }
 
-static bool take_flex(mjcf_writer *w, mjcf_flex *flex) {
+static bool fill_flex(mjcf_writer *w, mjcf_flex *flex) {
   uint32_t count = flex->level->positions.count;
   uint8_t *pinned = sbfi_arena_allocate(&w->scratch, count, sizeof *pinned);
   flex->holder = sbfi_arena_allocate(&w->scratch, count, sizeof *flex->holder);
@@ -56,7 +56,7 @@ static bool take_flex(mjcf_writer *w, mjcf_flex *flex) {
   flex->masses = sbfi_arena_allocate(&w->scratch, count, sizeof *flex->masses);
   if (!pinned || !flex->holder || !flex->positions || !flex->masses) return false;
   for (uint32_t i = 0; i < count; i++) flex->holder[i] = SBF_NONE;
-  for (uint32_t s = 0; s < flex->level->pins.count; s++) take_pins(w, flex, (int32_t)s);
+  for (uint32_t s = 0; s < flex->level->pins.count; s++) apply_pins(w, flex, (int32_t)s);
   sbf_level_pinned_points(flex->level, pinned);
   sbf_level_masses(flex->body, flex->level, pinned, flex->masses);
   return true;
@@ -66,15 +66,15 @@ bool sbfi_mjcf_collect_flexes(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   uint32_t bodies = asset->soft_bodies.count;
   w->flexes = sbfi_arena_allocate(&w->scratch, bodies + 1, sizeof *w->flexes);
-  w->bone_holds = sbfi_arena_allocate(&w->scratch, asset->bones.count + 1, sizeof *w->bone_holds);
+  w->bone_has_pins = sbfi_arena_allocate(&w->scratch, asset->bones.count + 1, sizeof *w->bone_has_pins);
   w->bone_elastic = sbfi_arena_allocate(&w->scratch, asset->bones.count + 1, sizeof *w->bone_elastic);
   w->rigid_elastic =
       sbfi_arena_allocate(&w->scratch, asset->rigid_bodies.count + 1, sizeof *w->rigid_elastic);
-  if (!w->flexes || !w->bone_holds || !w->bone_elastic || !w->rigid_elastic) return false;
+  if (!w->flexes || !w->bone_has_pins || !w->bone_elastic || !w->rigid_elastic) return false;
   for (uint32_t b = 0; b < bodies; b++) {
     choose_level(&w->flexes[b], &asset->soft_bodies.at[b]);
     if (!w->flexes[b].level) w->bare++;
-    if (w->flexes[b].level && !take_flex(w, &w->flexes[b])) return false;
+    if (w->flexes[b].level && !fill_flex(w, &w->flexes[b])) return false;
   }
   return true;
 }
@@ -122,7 +122,7 @@ static void write_bone_name(mjcf_writer *w, uint32_t bone) {
 void sbfi_mjcf_write_holders_and_points(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   for (uint32_t i = 0; i < asset->bones.count; i++) {
-    if (!w->bone_holds[i]) continue;
+    if (!w->bone_has_pins[i]) continue;
     sbfi_text_string(&w->e->text, "    <body name=\"");
     write_bone_name(w, i);
     sbfi_text_char(&w->e->text, '"');

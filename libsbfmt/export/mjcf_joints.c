@@ -50,7 +50,7 @@ typedef struct motion {
   float min, max, stiffness, damping, position;
 } motion;
 
-static void take_motions(mjcf_writer *w, const sbf_joint *joint, motion motions[6]) {
+static void find_motions(mjcf_writer *w, const sbf_joint *joint, motion motions[6]) {
   for (int k = 0; k < 6; k++)
     motions[k] =
         (motion){!(sbfi_joint_is_locked(joint->kind) >> k & 1), false, false, -INFINITY, INFINITY, 0, 0, 0};
@@ -98,7 +98,7 @@ void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t inde
   motion motions[6];
   float rest[6];
   const sbf_vec3 anchor = forward ? joint->frame_b.position : joint->frame_a.position;
-  take_motions(w, joint, motions);
+  find_motions(w, joint, motions);
   coordinates_at_rest(w->e->asset, joint, rest);
   w->breaking += joint->break_force > 0 || joint->break_torque > 0;
   w->touching += joint->collide;

@@ -19,8 +19,8 @@ typedef struct usda_writer {
   sbfi_export *e;
   sbfi_arena scratch;
   unsigned depth;
-  usda_mesh *meshes; /* (render meshes) */
-  bool *bone_holds;  /* (bones) moves points of written bodies */
+  usda_mesh *meshes;   /* (render meshes) */
+  bool *bone_has_pins; /* (bones) moves points of written bodies */
   /* Counts of unsupported parts. */
   uint32_t images, shared, bare, goals, moduli, damped, inelastic, pulleys, soft_limits, filters, weights,
       keys;

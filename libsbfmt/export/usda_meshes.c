@@ -66,7 +66,7 @@ static void write_joint(usda_writer *w, uint32_t bone, uint32_t *chain) {
   sbfi_text_char(&w->e->text, '"');
 }
 
-static void turn_of(sbf_quat q, double rotation[4]) {
+static void rotation_of(sbf_quat q, double rotation[4]) {
   const double parts[4] = {q.x, q.y, q.z, q.w};
   double length = sqrt(parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2] + parts[3] * parts[3]);
   for (int k = 0; k < 4; k++) rotation[k] = length > 0 ? parts[k] / length : k == 3;
@@ -94,11 +94,11 @@ static void write_transforms(usda_writer *w, const char *declaration, bool local
   for (uint32_t b = 0; b < asset->bones.count; b++) {
     const sbf_bone *bone = &asset->bones.at[b];
     double rotation[4], at[3] = {bone->head.x, bone->head.y, bone->head.z};
-    turn_of(bone->rotation, rotation);
+    rotation_of(bone->rotation, rotation);
     if (local && bone->parent >= 0) {
       const sbf_bone *parent = &asset->bones.at[bone->parent];
       double back[4];
-      turn_of(parent->rotation, back);
+      rotation_of(parent->rotation, back);
       sbfi_quatd_conjugate(back, back);
       at[0] -= parent->head.x, at[1] -= parent->head.y, at[2] -= parent->head.z;
       sbfi_quatd_rotate(back, at, at);

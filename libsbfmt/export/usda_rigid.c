@@ -79,7 +79,7 @@ static bool is_of(sbf_joint_axis target, unsigned axis) {
   return axis == (unsigned)target || (target == SBF_JOINT_AXIS_SWING && axis >= SBF_JOINT_AXIS_SWING_Y);
 }
 
-static void take_motions(usda_writer *w, const sbf_joint *joint, motion motions[6], float distance[2]) {
+static void find_motions(usda_writer *w, const sbf_joint *joint, motion motions[6], float distance[2]) {
   for (unsigned k = 0; k < 6; k++)
     motions[k] = (motion){!(sbfi_joint_is_locked(joint->kind) >> k & 1), false, -INFINITY, INFINITY, NULL};
   for (uint32_t i = 0; i < joint->limits.count; i++) {
@@ -243,7 +243,7 @@ void sbfi_usda_write_joints(usda_writer *w) {
       w->pulleys++;
       continue;
     }
-    take_motions(w, joint, motions, distance);
+    find_motions(w, joint, motions, distance);
     if (joint->kind == SBF_JOINT_KIND_DISTANCE)
       write_distance(w, joint, i, distance);
     else if (joint->kind == SBF_JOINT_KIND_FIXED)

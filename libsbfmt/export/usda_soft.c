@@ -172,7 +172,7 @@ static bool write_geometry(
 
 /* ---- What holds its points ---- */
 
-static sbf_vec3 turned_back(sbf_quat q, sbf_vec3 v) {
+static sbf_vec3 rotate_inverse(sbf_quat q, sbf_vec3 v) {
   const sbf_vec3 u = {-q.x, -q.y, -q.z};
   const sbf_vec3 t = {2 * (u.y * v.z - u.z * v.y), 2 * (u.z * v.x - u.x * v.z), 2 * (u.x * v.y - u.y * v.x)};
   return (sbf_vec3){v.x + q.w * t.x + u.y * t.z - u.z * t.y, v.y + q.w * t.y + u.z * t.x - u.x * t.z,
@@ -188,7 +188,7 @@ static sbf_vec3 position_in_frame(
                         : set->rigid_body >= 0 ? asset->rigid_bodies.at[set->rigid_body].center
                                                : none;
   const sbf_vec3 d = {p.x - from.x, p.y - from.y, p.z - from.z};
-  return set->bone >= 0 ? turned_back(asset->bones.at[set->bone].rotation, d) : d;
+  return set->bone >= 0 ? rotate_inverse(asset->bones.at[set->bone].rotation, d) : d;
 }
 
 static bool write_pins(
@@ -228,7 +228,7 @@ static bool write_pins(
   sbfi_usda_write_indices(w, "int[] physics:indices0", points, count, 1);
   sbfi_usda_write_points(w, "vector3f[] physics:coords1", positions, count, (sbf_vec3){0, 0, 0});
   sbfi_usda_close(w);
-  if (set->bone >= 0) w->bone_holds[set->bone] = true;
+  if (set->bone >= 0) w->bone_has_pins[set->bone] = true;
   return true;
 }
 
@@ -256,19 +256,20 @@ static bool write_body(usda_writer *w, uint32_t index) {
 bool sbfi_usda_soft_bodies(usda_writer *w) {
   const sbf_asset *asset = w->e->asset;
   if (!asset->soft_bodies.count) return true;
-  w->bone_holds = sbfi_arena_allocate(&w->scratch, (size_t)asset->bones.count + 1, sizeof *w->bone_holds);
-  if (!w->bone_holds) return false;
+  w->bone_has_pins =
+      sbfi_arena_allocate(&w->scratch, (size_t)asset->bones.count + 1, sizeof *w->bone_has_pins);
+  if (!w->bone_has_pins) return false;
   sbfi_usda_open_plain(w, "Scope", "soft", "");
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
     if (!write_body(w, i)) return false;
   sbfi_usda_close(w);
   bool any = false;
-  for (uint32_t b = 0; b < asset->bones.count; b++) any = any || w->bone_holds[b];
+  for (uint32_t b = 0; b < asset->bones.count; b++) any = any || w->bone_has_pins[b];
   if (!any) return true;
   sbfi_usda_open_plain(w, "Scope", "bones", "");
   for (uint32_t b = 0; b < asset->bones.count; b++) {
     const sbf_bone *bone = &asset->bones.at[b];
-    if (!w->bone_holds[b]) continue;
+    if (!w->bone_has_pins[b]) continue;
     sbfi_usda_open(w, "Xform", bone->id, b, "");
     sbfi_usda_write_vec3(w, "double3 xformOp:translate", bone->head);
     sbfi_usda_write_quat(w, "quatf xformOp:orient", bone->rotation);

@@ -189,7 +189,7 @@ static void end(sbf_result_series *s) {
 }
 
 /* Replaces an existing file even if the system's rename does not. */
-static bool take_name(const char *from, const char *to) {
+static bool replace_file(const char *from, const char *to) {
   if (rename(from, to) == 0) return true;
   return remove(to) == 0 && rename(from, to) == 0;
 }
@@ -199,7 +199,7 @@ static sbf_status rename_frames(const sbf_result_series *s, sbf_diagnostic *erro
   for (uint32_t i = 0; i < s->written; i++) {
     frame_path(s, i, part, from);
     frame_path(s, i, "", to);
-    if (!take_name(from, to))
+    if (!replace_file(from, to))
       return sbfi_diagnose(error, SBF_CODE_IO_CANNOT_WRITE, "%s cannot be renamed to %s", from, to);
   }
   return SBF_OK;

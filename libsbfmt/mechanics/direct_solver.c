@@ -70,7 +70,7 @@ static void order_points(sbfi_direct_solver *s, const sbfi_block_matrix *m) {
 
 /* ---- The factor ---- */
 
-static void take_blocks(const sbfi_direct_solver *s, const sbfi_block_matrix *m) {
+static void copy_blocks(const sbfi_direct_solver *s, const sbfi_block_matrix *m) {
   for (uint32_t i = 0; i < s->point_count; i++)
     for (uint32_t k = m->begins[s->points[i]]; k < m->begins[s->points[i] + 1]; k++) {
       uint32_t j = s->order[m->columns[k]];
@@ -141,7 +141,7 @@ static void factorise(sbfi_direct_solver *s) {
 void sbfi_direct_solver_refresh(sbfi_direct_solver *s, const sbfi_block_matrix *m) {
   if (s->size == 0) return;
   memset(s->factor, 0, (s->begins[s->size - 1] + s->size - s->firsts[s->size - 1]) * sizeof *s->factor);
-  take_blocks(s, m);
+  copy_blocks(s, m);
   factorise(s);
 }
 

@@ -8,7 +8,7 @@
 enum { MAX_STEPS = 200 };
 static const double singular = 1e-9, limited = 0.1;
 
-static void hold_loose(double *block) {
+static void stiffen_loose(double *block) {
   sbfi_d3 x = {block[0], block[1], block[2]}, y = {block[3], block[4], block[5]},
           z = {block[6], block[7], block[8]};
   double trace = x.x + y.y + z.z;
@@ -21,7 +21,7 @@ static void fill(sbfi_linear_statics *s) {
   sbfi_static_start(s->stiffness.network, s->p);
   sbfi_network_matrix_fill(&s->stiffness, s->p);
   for (uint32_t i = 0; i < matrix->row_count; i++)
-    hold_loose(matrix->blocks + 9 * (size_t)matrix->diagonals[i]);
+    stiffen_loose(matrix->blocks + 9 * (size_t)matrix->diagonals[i]);
   sbfi_block_matrix_prepare(matrix);
 }
 

@@ -22,7 +22,7 @@ void sbfi_network_matrix_refresh(sbfi_network_matrix *m) {
     if (!sbfi_network_tetrahedron(n, t, &m->elements[t])) m->elements[t] = (sbfi_tetrahedron){.volume = 0};
 }
 
-static bool take_elements(sbfi_network_matrix *m, const float *stated, sbfi_arena *arena) {
+static bool make_elements(sbfi_network_matrix *m, const float *stated, sbfi_arena *arena) {
   const sbf_spring_network *n = m->network;
   m->elements = reserve(arena, n->tetrahedron_count, sizeof *m->elements);
   m->rest_lengths = reserve(arena, n->spring_count, sizeof *m->rest_lengths);
@@ -70,7 +70,7 @@ static bool make_pattern(sbfi_network_matrix *m, sbfi_arena *arena) {
 bool sbfi_network_matrix_make(sbfi_network_matrix *made, const sbf_spring_network *network,
     const float *rest_lengths, sbfi_arena *arena) {
   *made = (sbfi_network_matrix){.network = network};
-  return take_elements(made, rest_lengths, arena) && make_pattern(made, arena);
+  return make_elements(made, rest_lengths, arena) && make_pattern(made, arena);
 }
 
 /* ---- The blocks ---- */

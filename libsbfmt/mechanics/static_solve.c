@@ -7,7 +7,7 @@
 #include "mechanics/network_matrix.h"
 
 enum { MAX_STEPS = 100, MIN_PRODUCTS = 200, MAX_BACKTRACKS = 40, SAID_EVERY = 32 };
-static const double TOLERANCE = 1e-8, SUFFICIENT_FALL = 1e-4;
+static const double TOLERANCE = 1e-8, SUFFICIENT_DECREASE = 1e-4;
 
 typedef struct statics {
   const sbfi_static_problem *problem;
@@ -171,7 +171,7 @@ static void find_direction(statics *s, double fraction) {
 
 /* Line search along the direction until the energy has decreased enough. False if it does not decrease any
  * more. */
-static bool go(statics *s, double *positions, double *energy) {
+static bool line_search(statics *s, double *positions, double *energy) {
   size_t size = 3 * (size_t)s->network->point_count;
   double slope = sbfi_dot(s->forces, s->direction, size), step = 1;
   double before = sqrt(sbfi_dot(s->forces, s->forces, size));
@@ -179,10 +179,11 @@ static bool go(statics *s, double *positions, double *energy) {
   for (int n = 0; n < MAX_BACKTRACKS; n++, step *= 0.5) {
     for (size_t i = 0; i < size; i++) s->trial[i] = positions[i] + step * s->direction[i];
     double reached = energy_of(s, s->trial), rounding = s->rounding_j + 1e-14 * fabs(reached);
-    bool falls = reached <= *energy - SUFFICIENT_FALL * step * slope;
+    bool decreases = reached <= *energy - SUFFICIENT_DECREASE * step * slope;
     /* Near the end the decrease is below rounding; then smaller forces decide. */
-    if (!falls && fabs(reached - *energy) <= rounding) falls = find_forces(s, s->trial, s->q) < before;
-    if (!falls) continue;
+    if (!decreases && fabs(reached - *energy) <= rounding)
+      decreases = find_forces(s, s->trial, s->q) < before;
+    if (!decreases) continue;
     memcpy(positions, s->trial, size * sizeof *positions);
     *energy = reached;
     return true;
@@ -227,7 +228,7 @@ static void iterate(statics *s, double *positions, sbfi_static_outcome *outcome)
     sbfi_network_matrix_fill(&s->derivatives, positions);
     if (s->coarse) sbfi_coarse_space_fill(&s->space, &s->derivatives.matrix);
     find_direction(s, fraction > 1e-3 ? fraction : 1e-3);
-    if (!go(s, positions, &energy)) break;
+    if (!line_search(s, positions, &energy)) break;
     s->steps++;
     length = find_forces(s, positions, s->forces);
   }

@@ -405,7 +405,7 @@ uint32_t sbf_asset_check(const sbf_asset *asset, void (*report)(void *user, cons
 
 /* --- loads and saves --- */
 
-static void keep_diagnostic(void *user, const sbf_diagnostic *diagnostic) {
+static void store_diagnostic(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
@@ -420,7 +420,7 @@ uint32_t sbfi_check_structure(const sbf_asset *asset, const sbf_load_options *op
 static sbf_status check_first(
     const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error) {
   sbf_diagnostic first;
-  if (sbfi_check_structure(asset, options, keep_diagnostic, &first, 1) == 0) return SBF_OK;
+  if (sbfi_check_structure(asset, options, store_diagnostic, &first, 1) == 0) return SBF_OK;
   if (error) *error = first;
   return sbf_code_find(first.code)->fault;
 }

@@ -2,19 +2,19 @@
 
 #include <string.h>
 
-typedef struct taking {
+typedef struct selection {
   const sbf_render_mesh *full;
   const sbf_render_level *level;
   const uint32_t *corners; /* (corners of the level) corresponding corners of the full mesh */
   sbfi_level_mesh *made;
   sbfi_arena *arena;
-} taking;
+} selection;
 
-static uint32_t *new_list(const taking *t, size_t count) {
+static uint32_t *new_list(const selection *t, size_t count) {
   return sbfi_arena_allocate(t->arena, count + 1, sizeof(uint32_t));
 }
 
-static bool find_vertices(taking *t) {
+static bool find_vertices(selection *t) {
   uint32_t full_count = t->full->mesh.positions.count, count = 0;
   uint32_t *position_of = new_list(t, full_count), *points = new_list(t, t->level->polygon_points.count);
   if (!position_of || !points) return false;
@@ -43,7 +43,7 @@ static bool find_vertices(taking *t) {
 }
 
 /* If the level has no corner list, uses the full mesh's first corner at each point. */
-static bool find_corners(taking *t) {
+static bool find_corners(selection *t) {
   const sbf_u32_list full = t->full->mesh.polygon_points, here = t->level->polygon_points;
   t->corners = t->level->corners.at;
   if (t->level->corners.count || full.count == 0) return true;
@@ -56,72 +56,73 @@ static bool find_corners(taking *t) {
 }
 
 /* Reduces a corner attribute of the full mesh to the level's corners; NULL if memory runs out. */
-static const uint32_t *taken_of_corners(const taking *t, const sbf_u32_list *of_full) {
-  uint32_t *taken = new_list(t, t->level->polygon_points.count);
-  for (uint32_t c = 0; taken && c < t->level->polygon_points.count; c++)
-    taken[c] = of_full->at[t->corners[c]];
-  return taken;
+static const uint32_t *selected_corners(const selection *t, const sbf_u32_list *of_full) {
+  uint32_t *selected = new_list(t, t->level->polygon_points.count);
+  for (uint32_t c = 0; selected && c < t->level->polygon_points.count; c++)
+    selected[c] = of_full->at[t->corners[c]];
+  return selected;
 }
 
 /* Reduces a vertex attribute of the full mesh, with items of `size` bytes, to the level's vertices. */
-static const void *taken_of_vertices(const taking *t, const void *of_full, size_t size) {
-  char *taken = sbfi_arena_allocate(t->arena, (size_t)t->made->vertex_count + 1, size);
-  for (uint32_t v = 0; taken && v < t->made->vertex_count; v++)
-    memcpy(taken + v * size, (const char *)of_full + t->made->vertices[v] * size, size);
-  return taken;
+static const void *selected_vertices(const selection *t, const void *of_full, size_t size) {
+  char *selected = sbfi_arena_allocate(t->arena, (size_t)t->made->vertex_count + 1, size);
+  for (uint32_t v = 0; selected && v < t->made->vertex_count; v++)
+    memcpy(selected + v * size, (const char *)of_full + t->made->vertices[v] * size, size);
+  return selected;
 }
 
-static bool take_normals(taking *t) {
+static bool select_normals(selection *t) {
   sbf_render_mesh *mesh = &t->made->mesh;
   if (t->full->normal_corners.count) {
     mesh->normal_corners.count = t->level->polygon_points.count;
-    return (mesh->normal_corners.at = taken_of_corners(t, &t->full->normal_corners)) != NULL;
+    return (mesh->normal_corners.at = selected_corners(t, &t->full->normal_corners)) != NULL;
   }
   if (t->full->normals.count != t->full->mesh.positions.count || !t->full->normals.count) return true;
   mesh->normals.count = t->made->vertex_count;
-  return (mesh->normals.at = taken_of_vertices(t, t->full->normals.at, sizeof(sbf_vec3))) != NULL;
+  return (mesh->normals.at = selected_vertices(t, t->full->normals.at, sizeof(sbf_vec3))) != NULL;
 }
 
-static bool take_colors(taking *t) {
+static bool select_colors(selection *t) {
   sbf_render_mesh *mesh = &t->made->mesh;
   if (t->full->color_corners.count) {
     mesh->color_corners.count = t->level->polygon_points.count;
-    return (mesh->color_corners.at = taken_of_corners(t, &t->full->color_corners)) != NULL;
+    return (mesh->color_corners.at = selected_corners(t, &t->full->color_corners)) != NULL;
   }
   if (t->full->colors.count != t->full->mesh.positions.count || !t->full->colors.count) return true;
   mesh->colors.count = t->made->vertex_count;
-  return (mesh->colors.at = taken_of_vertices(t, t->full->colors.at, sizeof(sbf_vec4))) != NULL;
+  return (mesh->colors.at = selected_vertices(t, t->full->colors.at, sizeof(sbf_vec4))) != NULL;
 }
 
-static bool take_coordinates(const taking *t, sbf_uv_set *set) {
+static bool select_coordinates(const selection *t, sbf_uv_set *set) {
   if (set->corners.count) {
-    set->corners.at = taken_of_corners(t, &set->corners);
+    set->corners.at = selected_corners(t, &set->corners);
     set->corners.count = t->level->polygon_points.count;
     return set->corners.at != NULL;
   }
   if (set->coordinates.count != t->full->mesh.positions.count || !set->coordinates.count) return true;
-  set->coordinates.at = taken_of_vertices(t, set->coordinates.at, sizeof(sbf_vec2));
+  set->coordinates.at = selected_vertices(t, set->coordinates.at, sizeof(sbf_vec2));
   set->coordinates.count = t->made->vertex_count;
   return set->coordinates.at != NULL;
 }
 
-static bool take_uv_sets(taking *t) {
+static bool select_uv_sets(selection *t) {
   uint32_t count = t->full->uv_sets.count;
   if (!count) return true;
   sbf_uv_set *sets = sbfi_arena_copy(t->arena, t->full->uv_sets.at, count, sizeof *sets);
   for (uint32_t u = 0; u < count; u++)
-    if (!sets || !take_coordinates(t, &sets[u])) return false;
+    if (!sets || !select_coordinates(t, &sets[u])) return false;
   t->made->mesh.uv_sets.at = sets;
   return true;
 }
 
 bool sbfi_level_mesh_make(
     sbfi_level_mesh *made, const sbf_render_mesh *full, const sbf_render_level *level, sbfi_arena *arena) {
-  taking t = {full, level, NULL, made, arena};
+  selection t = {full, level, NULL, made, arena};
   *made = (sbfi_level_mesh){.mesh = *full};
   sbf_render_mesh *mesh = &made->mesh;
   mesh->skin = NULL;
   mesh->shape_keys.count = mesh->source_points.count = mesh->levels.count = 0;
   mesh->polygon_materials = level->polygon_materials;
-  return find_vertices(&t) && find_corners(&t) && take_normals(&t) && take_colors(&t) && take_uv_sets(&t);
+  return find_vertices(&t) && find_corners(&t) && select_normals(&t) && select_colors(&t) &&
+         select_uv_sets(&t);
 }

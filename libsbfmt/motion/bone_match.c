@@ -2,7 +2,7 @@
  * the notation of sides differ; the words for parts are few. */
 #include <string.h>
 
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 enum { WORD_SIZE = 64 };
 typedef enum side { NO_SIDE, LEFT, RIGHT } side;
@@ -62,7 +62,7 @@ static const struct {
     {"pinky", {"pinky", "handpinky", "little"}},
 };
 
-static void take_meaning(const char *name, meaning *m) {
+static void read_meaning(const char *name, meaning *m) {
   static const char *const left[] = {"l", "left", NULL}, *const right[] = {"r", "right", NULL};
   static const char *const idle[] = {"mixamorig", "bip", "def", "org", "b", "jnt", "joint", "bone", NULL};
   const char *colon = strrchr(name, ':');
@@ -86,7 +86,7 @@ static void take_meaning(const char *name, meaning *m) {
 
 int sbfi_name_side(const char *name) {
   meaning m;
-  take_meaning(name, &m);
+  read_meaning(name, &m);
   return m.side == LEFT ? 1 : m.side == RIGHT ? -1 : 0;
 }
 
@@ -142,7 +142,7 @@ static void resolve(const sbf_asset *asset, meaning *all) {
 
 static meaning *meanings_of(const sbf_asset *asset, sbfi_arena *scratch) {
   meaning *all = sbfi_arena_allocate(scratch, asset->bones.count + 1, sizeof *all);
-  for (uint32_t i = 0; all && i < asset->bones.count; i++) take_meaning(asset->bones.at[i].name, &all[i]);
+  for (uint32_t i = 0; all && i < asset->bones.count; i++) read_meaning(asset->bones.at[i].name, &all[i]);
   if (all) resolve(asset, all);
   return all;
 }
@@ -162,10 +162,10 @@ static void match_chains(const sbf_asset *from, const sbf_asset *to, sbfi_bone_m
   for (uint32_t i = 0; i < to->retarget_chains.count; i++) {
     const sbf_retarget_chain *chain = &to->retarget_chains.at[i];
     meaning here, there;
-    take_meaning(chain->name, &here);
+    read_meaning(chain->name, &here);
     for (uint32_t j = 0; j < from->retarget_chains.count; j++) {
       const sbf_retarget_chain *other = &from->retarget_chains.at[j];
-      take_meaning(other->name, &there);
+      read_meaning(other->name, &there);
       if (!other->bones.count || (strcmp(chain->name, other->name) != 0 && !same_meaning(&here, &there)))
         continue;
       for (uint32_t k = 0; k < chain->bones.count; k++)
@@ -220,7 +220,7 @@ static void name_parts_by_chains(const sbf_asset *to, sbfi_bone_match *matches) 
   for (uint32_t i = 0; i < to->retarget_chains.count; i++) {
     const sbf_u32_list bones = to->retarget_chains.at[i].bones;
     meaning m;
-    take_meaning(to->retarget_chains.at[i].name, &m);
+    read_meaning(to->retarget_chains.at[i].name, &m);
     bool leg = strcmp(m.part, "leg") == 0, arm = strcmp(m.part, "arm") == 0;
     if (bones.count < 2 || (!leg && !arm)) continue;
     uint32_t upper = arm && bones.count > 3 ? bones.count - 3 : 0;

@@ -1,7 +1,7 @@
 /* Evaluates poses of a clip at any time, in double precision. */
 #include <math.h>
 
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 void sbfi_compute_rest_frames(const sbf_asset *asset, sbfi_bone_frame *frames) {
   for (uint32_t i = 0; i < asset->bones.count; i++) {

@@ -75,7 +75,7 @@ static sbf_status check_unread(sbfi_packed_reader *reader) {
 
 /* Loads from `bytes`; `*in_place` tells whether the asset points into them. */
 /* The header's version defines the known fields, so an asset with an earlier version gets the header's. */
-static sbf_status take_header_version(
+static sbf_status set_header_version(
     sbf_asset *made, const sbfi_packed_header *header, sbf_diagnostic *error) {
   char stated[16];
   snprintf(stated, sizeof stated, "1.%u", header->minor);
@@ -114,7 +114,7 @@ static sbf_status load(const void *bytes, size_t size, const sbf_load_options *o
     snprintf(stated, sizeof stated, "1.%u", reader.table.header.minor);
     sbfi_report_left_out(options, stated, reader.left_out, reader.first_left_out);
     if (sbfi_version_check(made->version) == SBFI_VERSION_NEWER_MINOR) made->version = SBF_FORMAT_VERSION;
-    status = take_header_version(made, &reader.table.header, error);
+    status = set_header_version(made, &reader.table.header, error);
   }
   if (status != SBF_OK) {
     sbf_asset_free(made);
@@ -143,7 +143,7 @@ static void release_content(void *content) {
 }
 
 /* Makes the asset own the file that its lists point into. */
-static sbf_status keep_content(sbf_asset *asset, sbfi_file_content *content, sbf_diagnostic *error) {
+static sbf_status attach_content(sbf_asset *asset, sbfi_file_content *content, sbf_diagnostic *error) {
   sbfi_asset_box *box = sbfi_asset_box_of(asset);
   sbfi_file_content *kept = sbfi_arena_copy(&box->arena, content, 1, sizeof *content);
   if (!kept) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for an asset");
@@ -163,7 +163,7 @@ sbf_status sbf_packed_load_file(
   if (status != SBF_OK) return status;
   status = load(content.at, content.size, &filled, asset, &in_place, error);
   if (status == SBF_OK && in_place) {
-    status = keep_content(*asset, &content, error);
+    status = attach_content(*asset, &content, error);
     if (status == SBF_OK) return SBF_OK;
     sbf_asset_free(*asset);
     *asset = NULL;

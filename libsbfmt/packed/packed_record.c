@@ -72,7 +72,7 @@ static void init_child(const sbfi_field *field, void *child) {
   sbfi_child_fix(field, child);
 }
 
-static uint32_t take_u32(span *s) {
+static uint32_t read_u32(span *s) {
   uint32_t value = sbfi_get_u32(s->record->at + s->at);
   s->at += 4;
   return value;
@@ -150,7 +150,7 @@ static sbf_status read_chunk_list(const reading *r, span s, const sbfi_field *fi
   if (s.end - s.at != 4)
     return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "`%s` does not name a chunk", field->name);
   if (r->part->without_lists) return SBF_OK;
-  uint32_t number = take_u32(&s);
+  uint32_t number = read_u32(&s);
   sbfi_packed_chunk wanted = r->part->address;
   wanted.list = field->number;
   if (wanted.field == 0) wanted.field = field->number;
@@ -168,7 +168,7 @@ static sbf_status read_chunk_list(const reading *r, span s, const sbfi_field *fi
 static sbf_status read_count(const reading *r, span s, const sbfi_field *field) {
   if (s.end - s.at != 4)
     return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "`%s` does not state its count", field->name);
-  uint32_t count = take_u32(&s);
+  uint32_t count = read_u32(&s);
   if (count > r->reader->options.limits.list_items)
     return fault(r, SBF_CODE_LIST_TOO_LONG, &s, field,
         "`%s` has %u items, more than the limit of %u: raise it if the file is trusted", field->name, count,
@@ -193,7 +193,7 @@ static sbf_status make_children(
   *count = 0;
   if (s->end - s->at < 4)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "the count of `%s` is cut short", field->name);
-  uint32_t stated = take_u32(s);
+  uint32_t stated = read_u32(s);
   if (stated > (s->end - s->at) / min)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "%u `%s` do not fit into %zu bytes", stated,
         field->name, s->end - s->at);
@@ -212,10 +212,10 @@ static sbf_status make_children(
 }
 
 /* Reads a size and splits a piece of that size off the front of `s`. */
-static sbf_status take_piece(const reading *r, span *s, const sbfi_field *field, span *piece) {
+static sbf_status read_piece(const reading *r, span *s, const sbfi_field *field, span *piece) {
   if (s->end - s->at < 4)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "one of the `%s` is cut short", field->name);
-  uint32_t size = take_u32(s);
+  uint32_t size = read_u32(s);
   if (size > s->end - s->at)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "one of the `%s` has %u bytes, but only %zu are left",
         field->name, size, s->end - s->at);
@@ -237,7 +237,7 @@ static sbf_status read_records(const reading *r, span s, const sbfi_field *field
   sbf_status status = make_children(r, &s, field, 4, &children, &count);
   for (uint32_t i = 0; status == SBF_OK && i < count; i++) {
     char *child = children + (size_t)i * field->element->struct_size;
-    status = take_piece(r, &s, field, &piece);
+    status = read_piece(r, &s, field, &piece);
     if (status == SBF_OK) status = read_child(r, piece, field, i, child, ALL_FIELDS);
   }
   return status == SBF_OK ? check_end(r, &s, field) : status;
@@ -278,8 +278,8 @@ static sbf_status read_parts(const reading *r, span s, const sbfi_field *field) 
     span label;
     if (s.end - s.at < 4)
       return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "one of the `%s` is cut short", field->name);
-    uint32_t number = take_u32(&s);
-    status = take_piece(r, &s, field, &label);
+    uint32_t number = read_u32(&s);
+    status = read_piece(r, &s, field, &label);
     if (status == SBF_OK) status = read_child(r, label, field, i, child, LABEL_FIELDS);
     if (status != SBF_OK) return status;
     sbfi_element_path path = sbfi_element_path_child(r->path, field, i);

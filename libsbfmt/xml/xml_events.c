@@ -322,7 +322,7 @@ static void on_error(void *user, raised_error found) {
 }
 
 /* Catches messages outside any parser (such as out of memory), which libxml2 would print. */
-static void keep_silent(void *user, raised_error found) {
+static void ignore_error(void *user, raised_error found) {
   (void)user, (void)found;
 }
 
@@ -367,7 +367,7 @@ sbf_status sbfi_xml_parse(const sbfi_xml_source *source, sbfi_xml_events *events
   xmlInitParser();
   xmlStructuredErrorFunc before = xmlStructuredError;
   void *before_context = xmlStructuredErrorContext;
-  xmlSetStructuredErrorFunc(NULL, keep_silent);
+  xmlSetStructuredErrorFunc(NULL, ignore_error);
   run(&p);
   xmlSetStructuredErrorFunc(before_context, before);
   sbfi_array_free(&p.attributes);

@@ -39,7 +39,7 @@ size_t sbfi_xml_list_bytes(const sbfi_xml_list *list) {
   return list->scalars.count * list->scalars.item_size + list->begun.length;
 }
 
-sbfi_xml_fault sbfi_xml_list_give(sbfi_xml_list *list, const sbf_given_list *given) {
+sbfi_xml_fault sbfi_xml_list_append_given(sbfi_xml_list *list, const sbf_given_list *given) {
   size_t count = given->size / list->scalars.item_size;
   if (given->size % list->scalars.item_size) return SBFI_XML_NOT_WHOLE;
   if (count / list->field->width > list->item_limit) return SBFI_XML_TOO_LONG;
@@ -81,7 +81,7 @@ sbfi_xml_fault sbfi_xml_scan_number(const sbfi_field *field, const char *text, s
   return status == SBFI_NUMBER_READ ? SBFI_XML_FINE : check(text, length, status);
 }
 
-static void keep_wrong(sbfi_xml_list *list, const char *text, size_t length) {
+static void store_invalid(sbfi_xml_list *list, const char *text, size_t length) {
   size_t kept = sbfi_utf8_cut(text, word_length(text, length), sizeof list->wrong - 1);
   if (kept) memcpy(list->wrong, text, kept);
   list->wrong[kept] = 0;
@@ -104,7 +104,7 @@ static sbfi_xml_fault add_numbers(sbfi_xml_list *list, const char *text, size_t 
   list->scalars.count = (size_t)(to - begin);
   *offset = i;
   if (i == length) return list->scalars.count > scalar_limit ? SBFI_XML_TOO_LONG : SBFI_XML_FINE;
-  keep_wrong(list, text + i, length - i);
+  store_invalid(list, text + i, length - i);
   return check(text + i, length - i, status);
 }
 
@@ -143,7 +143,7 @@ static sbfi_xml_fault add_base64(sbfi_xml_list *list, const char *text, size_t l
   *offset = sbfi_base64_read(&list->base64, text, length, to, &size);
   list->scalars.count += size;
   if (*offset < length) {
-    keep_wrong(list, text + *offset, length - *offset);
+    store_invalid(list, text + *offset, length - *offset);
     return SBFI_XML_MALFORMED;
   }
   return list->scalars.count > list->item_limit ? SBFI_XML_TOO_LONG : SBFI_XML_FINE;

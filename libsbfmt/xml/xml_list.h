@@ -32,7 +32,7 @@ void sbfi_xml_list_free(sbfi_xml_list *list);
 
 void sbfi_xml_list_begin(sbfi_xml_list *list, const sbfi_field *field);
 /* Items from the caller's memory. */
-sbfi_xml_fault sbfi_xml_list_give(sbfi_xml_list *list, const sbf_given_list *given);
+sbfi_xml_fault sbfi_xml_list_append_given(sbfi_xml_list *list, const sbf_given_list *given);
 /* On a fault `*offset` receives its offset in `text`; scalars before it are counted. */
 sbfi_xml_fault sbfi_xml_list_add(sbfi_xml_list *list, const char *text, size_t length, size_t *offset);
 sbfi_xml_fault sbfi_xml_list_end(sbfi_xml_list *list);

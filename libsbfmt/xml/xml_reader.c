@@ -427,13 +427,13 @@ static bool begin_child(reader *r, const sbfi_field *field, const char *name,
 }
 
 /* Takes the list with the number in an attribute `given`. */
-static bool take_given(reader *r, const sbfi_xml_attribute *given) {
+static bool append_given(reader *r, const sbfi_xml_attribute *given) {
   uint32_t number;
   if (sbfi_parse_u32(given->value, given->length, &number) != SBFI_NUMBER_READ ||
       number >= r->options->given_list_count)
     return fail(r, SBF_CODE_XML_BAD_VALUE, NULL, "`given` names none of the %u lists that were handed over",
         r->options->given_list_count);
-  sbfi_xml_fault fault = sbfi_xml_list_give(&r->list, &r->options->given_lists[number]);
+  sbfi_xml_fault fault = sbfi_xml_list_append_given(&r->list, &r->options->given_lists[number]);
   return (!fault || fail_list(r, fault)) && (fits_memory(r) || fail_memory(r));
 }
 
@@ -443,7 +443,7 @@ static bool begin_plain(reader *r, open_kind kind, const sbfi_field *field,
   if (kind == OPEN_LIST) sbfi_xml_list_begin(&r->list, field);
   r->text.count = 0;
   if (kind == OPEN_LIST && count == 1 && r->options->given_list_count && !strcmp(attributes->name, "given"))
-    return take_given(r, attributes);
+    return append_given(r, attributes);
   return !count || unknown_attribute(r, attributes[0].name);
 }
 

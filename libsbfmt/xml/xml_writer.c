@@ -27,7 +27,7 @@ typedef struct open_element {
   const char *name;
   uint32_t depth;
   bool has_content;
-  bool says_something; /* differs from its defaults */
+  bool is_needed; /* differs from its defaults */
 } open_element;
 
 static void flush(writer *w) {
@@ -159,7 +159,7 @@ static void write_attribute(
   bool is_default = sbfi_field_is_default(path, field);
   if (by_name || (is_default && !field->required)) return;
   if (w->selection.source_only && (field->volatile_ || points_at_derivation(field))) return;
-  if (!is_default) element->says_something = true;
+  if (!is_default) element->is_needed = true;
   sbfi_text_char(w->text, ' ');
   sbfi_text_string(w->text, field->name);
   sbfi_text_string(w->text, "=\"");
@@ -197,7 +197,7 @@ static void write_list(
   size_t line = field->item == SBFI_ITEM_U8 ? LINE_BYTES : LINE_SCALARS;
   const open_element self = {.name = field->name, .depth = parent->depth + 1};
   begin_content(w, parent);
-  parent->says_something = true;
+  parent->is_needed = true;
   open_start_tag(w, &self);
   sbfi_text_char(w->text, '>');
   if (scalars <= line) {
@@ -220,7 +220,7 @@ static void write_text(
   if (!*text) return;
   const open_element self = {.name = field->name, .depth = parent->depth + 1};
   begin_content(w, parent);
-  parent->says_something = true;
+  parent->is_needed = true;
   open_start_tag(w, &self);
   sbfi_text_char(w->text, '>');
   write_escaped(w, text, false);
@@ -264,7 +264,7 @@ static void write_child(writer *w, const sbfi_element_path *child, open_element 
   const char *name = sbfi_child_xml_name(child->field, child->object, buffer, sizeof buffer);
   begin_content(w, parent);
   if (write_object(w, child, name, parent->depth + 1) || child->field->type != SBFI_ONE) {
-    parent->says_something = true;
+    parent->is_needed = true;
     flush_when_full(w);
     return;
   }
@@ -290,7 +290,7 @@ static void write_children(
   if (!field->wrapper) return;
   if (wrapper.has_content) {
     close_element(w, &wrapper);
-    parent->says_something = true;
+    parent->is_needed = true;
   } else {
     w->text->length = start;
     parent->has_content = had_content;
@@ -315,7 +315,7 @@ static bool write_object(writer *w, const sbfi_element_path *path, const char *n
       write_children(w, path, field, &self);
   }
   close_element(w, &self);
-  return self.says_something;
+  return self.is_needed;
 }
 
 sbf_status sbfi_xml_write(const sbf_asset *asset, const sbfi_xml_selection *selection, sbfi_text *text,

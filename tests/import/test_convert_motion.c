@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 #include "sbfmt/convert.h"
 
 /* Hips a metre up, a thigh of half a metre to its side and a shin; the thigh swings forward by 90 degrees and

@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "harness.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 enum { MAX = 16 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "import/gait/gait_draft.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 static const double PAIR_FRACTION =
     0.1; /* fraction of the height; maximum distance of a leg from its twin's mirror image */

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "import/gait/locomotion.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 enum { MIN_CHAIN = 4 }; /* bones */
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 static const double STILL = 2e-3; /* rad; a bone that rotates less needs no key */
 

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "import/gait/locomotion.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 enum { ASKED = 400, COMPARED = 6000 }; /* points that are mirrored, and points that they are compared with */
 enum { MIN_NAMED = 2 };                /* minimum number of bones that name a side */

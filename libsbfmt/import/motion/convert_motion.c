@@ -3,7 +3,7 @@
 
 #include "base/diagnostic.h"
 #include "model/options.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 #include "sbfmt/convert.h"
 #include "sbfmt/io.h"
 

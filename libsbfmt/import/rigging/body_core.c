@@ -30,7 +30,7 @@ static sbfi_d3 point_on(const sbfi_weight_mesh *mesh, const uint32_t corners[3],
 static bool find_inwards(const sbfi_body_rays *rays, sbfi_d3 at, sbfi_d3 normal, sbfi_d3 *inwards) {
   for (int sign = -1; sign <= 1; sign += 2) {
     *inwards = sbfi_d3_scale(normal, sign);
-    if (sbfi_body_holds(rays, sbfi_d3_add(at, sbfi_d3_scale(*inwards, BELOW)))) return true;
+    if (sbfi_body_contains(rays, sbfi_d3_add(at, sbfi_d3_scale(*inwards, BELOW)))) return true;
   }
   return false;
 }

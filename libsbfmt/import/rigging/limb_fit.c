@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "import/rigging/similarity.h"
-#include "motion/carried_motion.h"
 #include "motion/quatd.h"
+#include "motion/retargeting.h"
 
 enum { DIRECTIONS = 300, MAX_SAMPLES = 8, ROUNDS = 24, DESCENTS = 3 };
 

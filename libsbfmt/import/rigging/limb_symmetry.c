@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "import/rigging/similarity.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 enum { SAMPLES = 400, MIDDLES = 64 };
 

@@ -7,7 +7,7 @@
 #include "import/rigging/align.h"
 #include "import/rigging/weigh.h"
 #include "mechanics/vector.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 /* Objects farther away than this fraction of the rig's size are not part of the character. */
 static const double BESIDE = 0.15;

@@ -1,5 +1,5 @@
 /* Clips of another skeleton, like `convert --motion`, for hosts that have both assets loaded. */
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 #include "sbrun/animation.h"
 
 sbf_status sbr_asset_retarget_clips(sbf_asset *asset, const sbf_asset *from, const char *name,

@@ -1,7 +1,7 @@
 /* Retargets motion from one skeleton to another: matching bones, poses of the source, tracks of the
  * target. */
-#ifndef SBFI_CARRIED_MOTION_H
-#define SBFI_CARRIED_MOTION_H
+#ifndef SBFI_RETARGETING_H
+#define SBFI_RETARGETING_H
 
 #include "base/diagnostic.h"
 #include "base/memory.h"

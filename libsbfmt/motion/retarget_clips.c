@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "model/unique_id.h"
-#include "motion/carried_motion.h"
+#include "motion/retargeting.h"
 
 enum { PIVOTS = 4 };
 
@@ -41,8 +41,9 @@ static sbf_status no_memory(motion *m) {
   return sbfi_diagnose(m->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for the motion of %s", m->file);
 }
 
-static void say(motion *m, sbf_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void say(motion *m, sbf_code code, const char *format, ...) {
+static void report_finding(motion *m, sbf_code code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+static void report_finding(motion *m, sbf_code code, const char *format, ...) {
   sbf_diagnostic note;
   va_list arguments;
   va_start(arguments, format);
@@ -173,7 +174,7 @@ static void add_name(char *list, uint32_t *count, const char *name) {
     snprintf(list + length, NAMES_CAPACITY - length, "%s%s", length ? ", " : "", name);
 }
 
-static sbf_status say_unmatched(motion *m) {
+static sbf_status report_unmatched(motion *m) {
   char here[NAMES_CAPACITY] = "", there[NAMES_CAPACITY] = "";
   uint32_t here_count = 0, there_count = 0;
   bool *taken = sbfi_arena_allocate(&m->scratch, m->from->bones.count + 1, sizeof *taken);
@@ -186,11 +187,11 @@ static sbf_status say_unmatched(motion *m) {
   for (uint32_t i = 0; i < m->from->bones.count; i++)
     if (!taken[i]) add_name(there, &there_count, m->from->bones.at[i].name);
   if (here_count)
-    say(m, SBF_CODE_IMPORT_MOTION_UNMATCHED,
+    report_finding(m, SBF_CODE_IMPORT_MOTION_UNMATCHED,
         "%u of the skeleton's %u bones have no counterpart and go along with their parents: %s%s", here_count,
         m->to->bones.count, here, here_count > NAMES_SHOWN ? ", ..." : "");
   if (there_count)
-    say(m, SBF_CODE_IMPORT_MOTION_UNMATCHED, "%u of the file's %u bones have no counterpart: %s%s",
+    report_finding(m, SBF_CODE_IMPORT_MOTION_UNMATCHED, "%u of the file's %u bones have no counterpart: %s%s",
         there_count, m->from->bones.count, there, there_count > NAMES_SHOWN ? ", ..." : "");
   return SBF_OK;
 }
@@ -332,8 +333,9 @@ static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena 
   to->duration = fmaxf(from->duration, m->times[m->time_count - 1]);
   to->loop = from->loop;
   to->tracks = (sbf_track_list){tracks, count};
-  say(m, SBF_CODE_IMPORT_MOTION, "clip '%s', %.2f s: %u bones follow, '%s' travels %.3g times as far as '%s'",
-      to->name, (double)to->duration, matched, m->to->bones.at[m->traveller].name, m->ratio,
+  report_finding(m, SBF_CODE_IMPORT_MOTION,
+      "clip '%s', %.2f s: %u bones follow, '%s' travels %.3g times as far as '%s'", to->name,
+      (double)to->duration, matched, m->to->bones.at[m->traveller].name, m->ratio,
       m->from->bones.at[m->leader].name);
   return true;
 }
@@ -400,7 +402,7 @@ sbf_status sbfi_retarget_clips(sbf_asset *asset, const sbf_asset *from, const ch
   else if (from->clips.count == 0 || from->bones.count == 0)
     status = sbfi_diagnose(m.error, SBF_CODE_IMPORT_MOTION_NONE, "the file holds no motion of bones");
   if (status == SBF_OK) status = prepare(&m);
-  if (status == SBF_OK) status = say_unmatched(&m);
+  if (status == SBF_OK) status = report_unmatched(&m);
   if (status == SBF_OK) status = add_clips(&m);
   if (status != SBF_OK) sbfi_copy_text(m.error->file, sizeof m.error->file, file);
   sbfi_arena_free(&m.scratch);

@@ -3,14 +3,14 @@
 #include "export/exporting.h"
 
 /* Visits every vertex embedded in a section's finest level. */
-typedef struct carried {
+typedef struct influences {
   uint32_t *counts; /* by vertex */
   uint32_t *bones;  /* NULL: only count */
   float *weights;
   const uint32_t *begins;
-} carried;
+} influences;
 
-static void add(carried *c, uint32_t vertex, int32_t bone, float weight) {
+static void add(influences *c, uint32_t vertex, int32_t bone, float weight) {
   if (c->bones) {
     uint32_t at = c->begins[vertex] + c->counts[vertex];
     c->bones[at] = (uint32_t)bone;
@@ -19,7 +19,7 @@ static void add(carried *c, uint32_t vertex, int32_t bone, float weight) {
   c->counts[vertex]++;
 }
 
-static void visit(const sbf_asset *asset, uint32_t render_mesh, carried *c) {
+static void visit(const sbf_asset *asset, uint32_t render_mesh, influences *c) {
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
     if (body->bone < 0 || !body->levels.count) continue;
@@ -38,7 +38,7 @@ bool sbfi_export_section_skin(
   uint32_t points = asset->render_meshes.at[render_mesh].mesh.positions.count, all = 0;
   *made = NULL;
   if (!asset->bones.count || !points) return true;
-  carried c = {.counts = sbfi_arena_allocate(arena, points, sizeof *c.counts)};
+  influences c = {.counts = sbfi_arena_allocate(arena, points, sizeof *c.counts)};
   uint32_t *begins = sbfi_arena_allocate(arena, points, sizeof *begins);
   if (!c.counts || !begins) return false;
   visit(asset, render_mesh, &c);
