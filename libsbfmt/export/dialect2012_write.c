@@ -378,7 +378,7 @@ static sbf_status write_skeleton(paper_writer *w) {
   return SBF_OK;
 }
 
-/* ---- The whole ---- */
+/* ---- The document ---- */
 
 static void report_unsupported(paper_writer *w, uint32_t without_lattice) {
   const sbf_asset *a = w->e->asset;

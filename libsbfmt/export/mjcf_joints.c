@@ -135,7 +135,7 @@ void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t inde
   }
 }
 
-/* ---- What is not in the tree ---- */
+/* ---- Joints outside the tree ---- */
 
 static void write_pair(mjcf_writer *w, const sbf_joint *joint) {
   /* body2 defaults to the world, and body1 is required. */

@@ -62,6 +62,6 @@ bool sbfi_usda_skeleton_and_meshes(usda_writer *w);
 bool sbfi_usda_mesh(usda_writer *w, uint32_t index);
 void sbfi_usda_write_rigid_bodies(usda_writer *w);
 void sbfi_usda_write_joints(usda_writer *w);
-bool sbfi_usda_soft_bodies(usda_writer *w); /* and the bones that hold their points */
+bool sbfi_usda_soft_bodies(usda_writer *w); /* and the bones to which their points are pinned */
 
 #endif

@@ -170,7 +170,7 @@ static bool write_geometry(
   return true;
 }
 
-/* ---- What holds its points ---- */
+/* ---- Attachments ---- */
 
 static sbf_vec3 rotate_inverse(sbf_quat q, sbf_vec3 v) {
   const sbf_vec3 u = {-q.x, -q.y, -q.z};

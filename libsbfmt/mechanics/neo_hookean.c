@@ -28,7 +28,7 @@ static double tension(const sbfi_tetrahedron *t, double j) {
 }
 
 /* Uses H = F - 1 to avoid cancellation at small strains: J - 1 = tr H + h + det H with h the sum of H's
- * principal minors; the terms in tr H alone cancel. */
+ * principal minors; the terms with only tr H cancel. */
 double sbfi_tetrahedron_energy(const sbfi_tetrahedron *t, const sbfi_d3 x[4]) {
   sbfi_columns f = sbfi_tetrahedron_gradient(t, x);
   f.at[0].x -= 1, f.at[1].y -= 1, f.at[2].z -= 1;

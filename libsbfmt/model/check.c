@@ -1,4 +1,4 @@
-/* Structural check: all guarantees of a load, from the schema's tables alone. */
+/* Structural check: all promises of a load, from the schema's tables only. */
 #include "model/check.h"
 
 #include <float.h>

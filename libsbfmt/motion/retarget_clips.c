@@ -53,7 +53,7 @@ static void report_finding(motion *m, sbf_code code, const char *format, ...) {
   sbfi_report(m->reporter, &note);
 }
 
-/* --- What is the same for all clips ------------------------------------------------------------------- */
+/* --- Setup common to all clips ------------------------------------------------------------------------ */
 
 /* Minimum cosine between rest directions for two limbs to correspond. */
 static const double MIN_ALIKE = -0.2;
@@ -164,7 +164,7 @@ static sbf_status prepare(motion *m) {
   return SBF_OK;
 }
 
-/* --- Who goes without --------------------------------------------------------------------------------- */
+/* --- Bones without a counterpart ---------------------------------------------------------------------- */
 
 enum { NAMES_SHOWN = 8, NAMES_CAPACITY = 240 };
 

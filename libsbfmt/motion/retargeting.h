@@ -18,7 +18,7 @@ typedef enum sbfi_part {
 } sbfi_part;
 
 typedef struct sbfi_bone_match {
-  int32_t source; /* bone of the other skeleton whose motion it takes, or SBF_NONE */
+  int32_t source; /* matching bone of the other skeleton, or SBF_NONE */
   sbfi_part part;
 } sbfi_bone_match;
 

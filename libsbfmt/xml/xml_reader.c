@@ -592,7 +592,7 @@ static bool on_end(void *user) {
   return good;
 }
 
-/* --- the whole --- */
+/* --- the document --- */
 
 static void free_reader(reader *r) {
   row *rows = r->rows.at;

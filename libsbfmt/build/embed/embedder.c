@@ -82,8 +82,7 @@ static sbfi_d3 at_rest(const sbfi_embedder *c, uint32_t point) {
   return sbfi_d3_of(c->level->positions.at[point]);
 }
 
-/* Vertices farther outside would be thrown about at small strains, and files must not contain such
- * weights. */
+/* Vertices farther outside would amplify small strains too much, and files must not contain such weights. */
 static bool is_bounded(const choice *of) {
   for (int k = 0; k < 4; k++)
     if (!(of->weights[k] >= SBFI_MIN_EMBEDDED && of->weights[k] <= SBFI_MAX_EMBEDDED)) return false;
@@ -105,7 +104,7 @@ static bool is_good(const sbfi_embedder *c, const choice *of) {
   return c->use == SBFI_EMBEDS_LOADS ? of->size <= MAX_LOAD_SIZE : is_bounded(of);
 }
 
-/* Replaces `best` if the weights are smaller, or good while the best's are not. */
+/* Replaces `best` if the weights are smaller, or acceptable while the best's are not. */
 static void try_choice(const sbfi_embedder *c, choice *tried, sbfi_d3 position, choice *best) {
   if (!weigh(c, tried, position)) return;
   bool good = is_good(c, tried), other = best->size < INFINITY && is_good(c, best);

@@ -10,9 +10,9 @@
 /* Relative accuracy of displacements under small loads; maximum unbalanced fraction of the load under
  * gravity. */
 static const double displacement_tolerance = 2e-3, gravity_tolerance = 1e-4;
-/* Bounds of the common factor from means over the surface. Outside them a loose crumb may have distorted
- * the mean, as in a lattice of a surface with holes, because its displacement is unbounded. A crumb of the
- * level is handled by a median point; with one in the reference nothing can be fitted. */
+/* Bounds of the common factor from means over the surface. Outside them a loose fragment may distort the
+ * mean, as in a lattice of a surface with holes, because its displacement is unbounded. A median point is
+ * robust to a fragment of the level; with one in the reference nothing can be fitted. */
 static const double min_common = 0.0625, max_common = 4;
 /* Bounds of the factor from the median point; number of bisections; minimum mean square of the reference's
  * displacements for a point to count. */
@@ -188,9 +188,9 @@ static double target_compliance(const work *w, uint32_t load) {
   return compliance(w, w->r->mean_displacements, w->r->frequencies, load);
 }
 
-/* Lower bound of the common factor. The slowest mode of a thin fin alone could ask for a factor with which
- * the thicker rest sags. If few points provide no information about parts, a body that stands by itself
- * stays stiff enough to bear its weight. */
+/* Lower bound of the common factor. Otherwise the slowest mode of a thin fin could select a factor with which
+ * the thicker rest sags. If few points provide no information about parts, a body without pins stays stiff
+ * enough to bear its weight. */
 static double min_to_bear(const work *w) {
   sbf_attributes matter = w->body->attributes;
   double stated = (double)matter.young_modulus;
@@ -223,8 +223,8 @@ static double mean_square(const work *w) {
   return area > 0 ? sum / area : 0;
 }
 
-/* The common factor at which half of the surface by area moves more than the reference and half less:
- * robust to crumbs. 1 if the surface gives no information. Bisects the factor's logarithm. */
+/* The common factor at which half of the surface by area moves more than the reference and half less: robust
+ * to loose fragments. 1 if the surface provides no information. Bisects the factor's logarithm. */
 static double median_excess(const work *w) {
   uint32_t points = w->body->surface.positions.count;
   double low = min_median, high = max_median, hardly = still_fraction * mean_square(w);
@@ -428,7 +428,7 @@ static bool compare_under(
         farthest(w->displacements[l], w->r->gravity / factor, w->r->displacements[l], w->r->gravity, points);
   else /* does not move at all */
     *error = farthest(displacements, 1, w->r->displacements[l], w->r->gravity, points);
-  /* Linear displacements larger than the body's size give no information about positions. */
+  /* Linear displacements larger than the body's size provide no information about positions. */
   if (converged || !has_linear || *error <= w->r->statics.size) return true;
   *error = INFINITY;
   w->c->unsettled |=

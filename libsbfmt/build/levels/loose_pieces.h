@@ -1,4 +1,4 @@
-/* Finds unpinned pieces of a level whose other pieces are pinned: crumbs of a lattice of a surface with
+/* Finds unpinned pieces of a level whose other pieces are pinned: fragments of a lattice of a surface with
  * holes or details below its cell size. Statics has no solution for them: their displacement is unbounded. */
 #ifndef SBFI_LOOSE_PIECES_H
 #define SBFI_LOOSE_PIECES_H

@@ -9,8 +9,8 @@
 
 /* Maximum distance to the surface as a fraction of the body's extent. */
 static const double AT_SURFACE = 0.05;
-/* Minimum fraction of a skin's vertices at its sections; and minimum fraction of all skins of its
- * skeleton, so that a skin of a single material cannot decide alone. */
+/* Minimum fraction of a skin's vertices at its sections; and minimum fraction of all skins of its skeleton,
+ * so that the skin of a single material is not decisive. */
 static const double SECTIONED_PART = 0.5, PART_OF_ALL = 0.2;
 
 typedef struct body_side {

@@ -6,7 +6,7 @@
 
 static const double MIN_WEIGHT = 2e-4;
 
-/* Copies the holds, which are ascending by bone. */
+/* Copies the bone weights, which are ascending by bone. */
 static sbfi_blend_row *rows_of(const sbfi_skin_union *skin, sbfi_arena *arena) {
   uint32_t points = skin->mesh.positions.count;
   sbfi_blend_row *rows = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *rows);

@@ -9,9 +9,9 @@
  * bone's +Y, +Z and +X. */
 sbf_frame sbfi_bone_joint_frame(const sbf_bone *bone, const sbf_rigid_body *body);
 
-/* Adds a spherical joint at the head of the bone of each cut section, between the bone's first rigid body
- * and that of the nearest ancestor with one; none if an authored joint already holds that body. The joints
- * have no limits and are marked as proposed. False if memory runs out. */
+/* Adds a spherical joint at the head of the bone of each cut section, between the bone's first rigid body and
+ * that of the nearest ancestor with one; none if that body already has an authored joint. The joints have no
+ * limits and are marked as proposed. False if memory runs out. */
 bool sbfi_section_joints_make(sbf_asset *asset, int32_t derivation, sbfi_ids *ids, sbfi_arena *scratch);
 
 #endif

@@ -23,7 +23,7 @@ static float pinned_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_
   return sum;
 }
 
-/* Copies a point's holds by a foot to `bone_weights`. Returns the next free index. */
+/* Copies a point's weights of a foot to `bone_weights`. Returns the next free index. */
 static uint32_t copy_own_weights(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point,
     int32_t foot, sbfi_bone_weight *bone_weights, uint32_t next) {
   float sum = pinned_by(skin, feet, point, foot);

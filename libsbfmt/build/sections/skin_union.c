@@ -21,7 +21,7 @@ typedef struct work {
   uint32_t *firsts;                   /* (point_count) first vertex of the point, counted over all meshes */
   uint32_t *numbers;                  /* (point_count) number of vertices at the point */
   uint32_t *points;                   /* (vertex_count) */
-  uint32_t *begins, *counts;          /* (vertex_count + 1) holds of each vertex */
+  uint32_t *begins, *counts;          /* (vertex_count + 1) first weight of each vertex; number of weights */
   sbfi_bone_weight *bone_weights;
   uint32_t *slots, *next; /* hash of positions: first point; next point in the same slot */
   size_t slot_count;

@@ -291,7 +291,9 @@ static bool add_springs(work *w, sbfi_spring_counts *counts) {
   return true;
 }
 
-/* Masses of a body with a free interior; the rule of sbf_level_masses would give its points too little. */
+/* Masses of a body with a free interior; sbf_level_masses would assign too little mass to the interior
+ * points.
+ */
 static bool state_masses(work *w) {
   float *masses = sbf_asset_allocate(w->asset, w->point_count, sizeof *masses);
   if (!masses) return false;

@@ -79,8 +79,8 @@ static bool is_machine(const sbfi_weight_mesh *mesh) {
   return whole * whole > MACHINE_SHELLS * squares;
 }
 
-/* Small shells without a bone inside take the weights of the nearest sites of shells with one, such as
- * eyes in a head. */
+/* Small shells without a bone inside, such as eyes in a head, copy the weights of the nearest sites of shells
+ * with one. */
 static bool copy_from_bone_shells(const sbfi_weight_mesh *mesh, const sbfi_bone_reach *reach,
     sbfi_site_weights *weights, sbfi_arena *arena) {
   sbf_vec3 *positions = sbfi_arena_allocate(arena, mesh->site_count, sizeof *positions);

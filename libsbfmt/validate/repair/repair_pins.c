@@ -1,4 +1,4 @@
-/* Removes pins without effect: on a point that another pin holds rigidly already, and duplicates. */
+/* Removes pins without effect: duplicates, and pins on a point that another set pins rigidly. */
 #include "validate/repair/repair.h"
 #include "validate/rules/pin_states.h"
 

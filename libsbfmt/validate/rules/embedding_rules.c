@@ -141,7 +141,7 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
         none == 1 ? "vertex" : "vertices", sbfi_label(at->name, at->id), none == 1 ? "is" : "are");
 }
 
-/* Checks embeddings of a body's own surface, which belong to that body alone. */
+/* Checks embeddings of a body's own surface, which only that body embeds. */
 static void check_surface(sbfi_validation *v, uint32_t body, uint32_t l) {
   const sbf_soft_body *at = &v->asset->soft_bodies.at[body];
   const sbf_level *level = &at->levels.at[l];

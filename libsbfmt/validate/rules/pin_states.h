@@ -9,7 +9,7 @@ typedef enum sbfi_pin_state { SBFI_FREE = 0, SBFI_GOAL_PINNED = 1, SBFI_PINNED =
 /* Weight of a pin: the set's own, clamped to its minimum and maximum. */
 float sbfi_pin_weight(const sbf_pin_set *set, uint32_t pin);
 
-/* How pins hold each point (level->positions.count). */
+/* Strongest pin state of each point, (level->positions.count). */
 void sbfi_find_pin_states(const sbf_level *level, uint8_t *pin_states);
 
 #endif
