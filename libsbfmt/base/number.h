@@ -1,17 +1,20 @@
 /* Numbers as text, the same bytes in every locale and rounding mode.
  *
- * Reading accepts what XML Schema's xs:float accepts except INF and NaN:
- *     [+-]? ( digits ( "." digits? )? | "." digits ) ( [eE] [+-]? digits )?
- * and rounds to the nearest float32, ties to even, whatever the number of digits. A number too small becomes
- * a subnormal or a zero of its sign; one that would round to infinity is refused. Integers are [+-]? digits.
- * Nothing is skipped: white space, hexadecimal, and digit separators are not part of a number.
+ * The reader accepts what XML Schema's xs:float accepts, except INF and NaN:
  *
- * Writing gives the canonical form, which is also what C++17's std::to_chars(first, last, float) gives:
+ *     [+-]? ( digits ( "." digits? )? | "." digits ) ( [eE] [+-]? digits )?
+ *
+ * It rounds to the nearest float32, ties to even, for any number of digits. A number that is too small
+ * becomes a subnormal or a zero of its sign; one that would round to infinity is refused. Integers are [+-]?
+ * digits. Nothing is skipped: white space, hexadecimal, and digit separators are not part of a number.
+ *
+ * The writer produces the canonical form, the same as C++17's std::to_chars(first, last, float):
+ *
  *   - the fewest significant digits that read back to the same float32, and among those the nearest to it;
- *   - laid out as 123.45 or as d.ddde±XX (sign always, at least two exponent digits), whichever is shorter,
- *     the former when they are equally long: 1000, 0.001, 1e+05, 1.5e-07;
+ *   - the shorter of the layouts 123.45 and d.ddde±XX (sign always, at least two exponent digits), the first
+ *     if they are equally long: 1000, 0.001, 1e+05, 1.5e-07;
  *   - no "+" in front, no needless leading or trailing zero, no trailing point; zeros are 0 and -0;
- *   - a whole number laid out without exponent is written exactly, 123456792 and not 123456790.
+ *   - a whole number without exponent is written exactly, 123456792 and not 123456790.
  *
  * All functions are thread safe and allocate nothing. */
 #ifndef SBFI_NUMBER_H

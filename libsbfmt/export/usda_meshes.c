@@ -8,7 +8,7 @@
 #include "motion/quatd.h"
 
 /* Body that embeds a mesh, SBF_NONE for none; -2 for several. */
-static int32_t carrier_of(const sbf_asset *asset, uint32_t mesh) {
+static int32_t embedding_body_of(const sbf_asset *asset, uint32_t mesh) {
   int32_t found = SBF_NONE;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
@@ -41,7 +41,7 @@ bool sbfi_usda_choose_meshes(usda_writer *w) {
     }
     mesh->skin = asset->bones.count ? mesh->full->skin : NULL;
     if (mesh->skin || mesh->full->bone >= 0) continue;
-    int32_t body = carrier_of(asset, i);
+    int32_t body = embedding_body_of(asset, i);
     if (body == -2) w->shared++;
     if (body >= 0 && asset->soft_bodies.at[body].bone < 0 && sbfi_export_level(&asset->soft_bodies.at[body]))
       mesh->body = body, w->keys += mesh->full->shape_keys.count;

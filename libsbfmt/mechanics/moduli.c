@@ -1,4 +1,4 @@
-/* Young's modulus of each tetrahedron: that of the level, or else the body's with its weight maps. */
+/* Young's modulus of each tetrahedron: the level's, or else the body's with its weight maps. */
 #include "mechanics/level_points.h"
 #include "sbfmt/mechanics.h"
 

@@ -4,8 +4,8 @@
  * Wright, Numerical Optimization, algorithm 7.1, line search Newton-CG). The second derivatives are a sparse
  * matrix of 3 x 3 blocks. The preconditioner is one symmetric Gauss-Seidel sweep and, for lattices of some
  * size, a coarse space (coarse_space.h). The diagonal blocks of neo_hookean.h are always positive definite;
- * those of springs are made so. A direction of negative curvature ends the iteration with the current result,
- * which is always a descent direction. Backtracking ensures that the energy decreases.
+ * the springs' blocks are made so. A direction of negative curvature ends the iteration with the current
+ * result, which is always a descent direction. Backtracking ensures that the energy decreases.
  *
  * Double precision, one thread, only the square root from libm: the same bits on every machine. A network
  * without pins or with an unbalanced load does not converge, which its residual shows. */

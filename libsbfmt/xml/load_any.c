@@ -13,7 +13,7 @@ typedef enum form { FORM_UNKNOWN, FORM_EMPTY, FORM_XML, FORM_PACKED } form;
 static bool begins_packed(const uint8_t *bytes, size_t size) {
   static const uint8_t magic[] = {0x89, 'S', 'B', 'F'};
   size_t compared = size < sizeof magic ? size : sizeof magic;
-  /* a magic number whose first byte lost its high bit still counts: the reader reports the cause */
+  /* also accepts a magic number whose first byte lost its high bit: the reader reports the cause */
   return (bytes[0] | 0x80) == magic[0] && memcmp(bytes + 1, magic + 1, compared - 1) == 0;
 }
 

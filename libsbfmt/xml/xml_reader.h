@@ -25,8 +25,8 @@ bool sbfi_xml_resolve_refs(sbf_asset *asset, const sbfi_array *refs, sbfi_xml_fi
 void sbfi_xml_locate(
     const sbfi_xml_source *source, const sbf_allocator *allocator, sbfi_xml_findings *findings);
 
-/* Runs all of these and the structural check. On findings `*asset` is NULL and the status is that of the
- * first. */
+/* Runs all of these and the structural check. On findings `*asset` is NULL and the status is the first
+ * finding's. */
 sbf_status sbfi_xml_read(const sbfi_xml_source *source, const sbf_load_options *options,
     sbfi_xml_findings *findings, sbf_asset **asset);
 /* The same from a file; `options` are the caller's. */

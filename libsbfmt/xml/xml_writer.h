@@ -1,9 +1,9 @@
 /* Canonical XML form: equal assets give equal bytes, on every machine and in every locale.
  *
- * Attributes and elements are in the schema's order, with two spaces of indentation per level. Values
- * equal to their default are omitted unless required, as are empty lists and `one` children without
- * content. A list is one element: on one line if it has at most twelve scalars, else twelve per line
- * (bytes: 57 per line in base64), without indentation. A reference is the id of its target. */
+ * Attributes and elements are in the schema's order, with two spaces of indentation per level. Omitted are
+ * values equal to their default unless required, empty lists, and `one` children without content. A list is
+ * one element: on one line if it has at most twelve scalars, else twelve per line (bytes: 57 per line in
+ * base64), without indentation. A reference is the id of its target. */
 #ifndef SBFI_XML_WRITER_H
 #define SBFI_XML_WRITER_H
 

@@ -220,8 +220,8 @@ static bool is_farther(const sbfi_solved_tetrahedron *in, const double weights[4
   return false;
 }
 
-/* Distance to the nearest of the faces towards the point, whose weights are negative; to all faces if none
- * is. NULL: the weights are unknown. */
+/* Distance to the nearest face towards the point (the faces with negative weights), or to all faces if no
+ * weight is negative. NULL: the weights are unknown. */
 static double distance_to(
     const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_d3 at, const double *weights) {
   static const int faces[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}; /* opposite to each corner */

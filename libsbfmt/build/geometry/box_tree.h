@@ -28,9 +28,9 @@ bool sbfi_box_tree_build(sbfi_box_tree *tree, const sbfi_box *boxes, uint32_t co
 /* Squared distance between a point and a box. */
 double sbfi_box_distance(const sbfi_box *box, const double point[3]);
 
-/* Item with the smallest `distance` from the point, the lowest number if equal; UINT32_MAX if none is
- * below `*min`, which receives that distance. `distance` returns the square of an item's distance, at
- * least that of its box. */
+/* Item with the smallest `distance` from the point, the lowest number if equal; UINT32_MAX if none is below
+ * `*min`, which receives that distance. `distance` returns the square of an item's distance, at least the
+ * squared distance of its box. */
 uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
     double (*distance)(const void *user, uint32_t item, const double point[3]), const void *user,
     double *min);

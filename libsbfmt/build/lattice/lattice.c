@@ -22,7 +22,7 @@ static void store_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_
   }
 }
 
-/* At a hole: where the winding number passes a half. */
+/* At a hole: the position with a winding number of a half. */
 static float bisect(const sbfi_lattice_grid *grid, const sbfi_winding *winding, uint32_t edge, bool inside) {
   enum { ROUNDS = 12 };
   double low = 0, high = 1;

@@ -18,8 +18,8 @@ typedef struct sbfi_lattice_grid {
   sbfi_d3 origin;      /* m, of the node (0, 0, 0) */
   uint32_t counts[3];  /* number of corners along each axis; as many centres */
   uint32_t node_count; /* below 2^28 */
-  /* From a node's index to that of the other end of edge k; [0] from a corner, [1] from a centre. Every node
-   * at least two cubes from the border has all fourteen edges. */
+  /* Offset of a node's index to the other end of edge k; [0] from a corner, [1] from a centre. Every node at
+   * least two cubes from the border has all fourteen edges. */
   int32_t steps[2][SBFI_LATTICE_EDGES];
 } sbfi_lattice_grid;
 

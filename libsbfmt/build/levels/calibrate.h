@@ -75,7 +75,7 @@ typedef struct sbfi_calibration {
   double surface;  /* mean factor on the stiffness of surface springs */
   double min, max; /* range over the elements */
   double residual; /* for lattices the largest relative difference of displacement under one of the small
-                      loads; for springs that of the surface's displacements (spring_fit.h) */
+                    * loads; for springs the same over all surface points (spring_fit.h) */
   double residual_before; /* for springs, the same before */
   /* For lattices, relative excess of the displacements under each of the small loads, and under twists
    * about x, y and z; negative: less; NAN: unknown. */

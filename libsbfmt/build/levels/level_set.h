@@ -19,7 +19,7 @@ typedef struct sbfi_level_set_recipe {
 
 /* A level that does not converge, or has an error above SBFI_MAX_LOAD_ERROR. */
 typedef struct sbfi_poor_level {
-  uint32_t elements; /* number of tetrahedra, or for springs that of their lattice */
+  uint32_t elements; /* number of tetrahedra, or for springs the number in their lattice */
   double load_error; /* largest relative error under a load; 0: no convergence */
   bool is_kept;      /* the finest level; others are removed */
 } sbfi_poor_level;

@@ -1,6 +1,6 @@
-/* Fits springs so that they behave like their material: one factor for surface springs and one for
- * interior springs, with which the surface moves like that of a lattice of tetrahedra under the same
- * loads; then each spring's own factor (stiffness_descent.h). */
+/* Fits springs so that they behave like their material: one factor for surface springs and one for interior
+ * springs, chosen so that the surface moves like the surface of a lattice of tetrahedra under the same loads;
+ * then each spring's own factor (stiffness_descent.h). */
 #ifndef SBFI_SPRING_FIT_H
 #define SBFI_SPRING_FIT_H
 

@@ -22,8 +22,8 @@ typedef struct sbfi_target_displacements {
 /* Bounds of factors. */
 typedef struct sbfi_factor_bounds {
   double min, max;
-  double max_raise; /* for springs: maximum stiffness per mass of a point, relative to that of the originally
-                       stiffest point: the highest frequency grows at most by its root */
+  double max_raise; /* for springs: maximum stiffness per mass of a point, relative to the originally stiffest
+                     * point: the highest frequency grows at most by its root */
   double fraction;  /* relative accuracy of displacements */
   uint32_t rounds;  /* fewer with many points, so that no body takes many seconds */
 } sbfi_factor_bounds;

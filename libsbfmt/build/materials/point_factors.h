@@ -6,7 +6,7 @@
 #include "sbfmt/asset.h"
 
 /* Product of the body's weight maps of one property at each point of a level: interpolated at the nearest
- * surface triangle, or that of the nearest authored interior point if that is closer. `*factors`
+ * surface triangle, or taken from the nearest authored interior point if that is closer. `*factors`
  * (level->positions.count) is allocated from `scratch`; NULL if the body has no such map. False if memory
  * runs out. */
 bool sbfi_point_factors(const sbf_soft_body *body, const sbf_level *level, sbf_weight_property property,

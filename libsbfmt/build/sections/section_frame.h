@@ -1,4 +1,4 @@
-/* Frame points, with which a section moves vertices outside it. */
+/* Frame points, which embed vertices outside a section so that it can move them. */
 #ifndef SBFI_SECTION_FRAME_H
 #define SBFI_SECTION_FRAME_H
 

@@ -9,8 +9,8 @@
 /* A spring of stiffness k, length L and direction n has the energy k L^2 (n.e.n)^2 / 2 at a small strain e;
  * material of volume V with lambda = mu (Poisson's ratio a quarter) has mu V (e:e + (tr e)^2 / 2). The
  * springs at each point get parts w of k L^2 such that the sum of w n (x) n (x) n (x) n is as close as
- * possible to that of the point's volume, in the mean over all strains, with none below a twentieth of its
- * part by length. This is a quadratic problem in which two springs interact by (n.m)^4; it is solved by
+ * possible to the tensor of the point's volume, in the mean over all strains, with none below a twentieth of
+ * its part by length. This is a quadratic problem in which two springs interact by (n.m)^4; it is solved by
  * gradient descent from the parts by length, and the result is scaled to the volume's energy. A spring gets
  * the sum of the parts of its two ends. (Derived here from the sums of sbfmt/mechanics.h; on a body-centred
  * grid it gives the two kinds of edges 0.6 and 0.4 E times the cell, which is exactly isotropic.) Points with

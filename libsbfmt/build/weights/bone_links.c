@@ -1,7 +1,7 @@
 #include "build/weights/bone_links.h"
 
-/* Minimum distance of a limb from its carrier for a link, in units of the longest side; minimum fraction
- * of a limb in a shell for the shell to belong to it. */
+/* Minimum distance of a limb from its parent for a link, in units of the longest side; minimum fraction of a
+ * limb in a shell for the shell to belong to it. */
 static const double BESIDE = 0.01, PINNED_FRACTION = 0.125;
 
 bool sbfi_bone_links_make(sbfi_bone_links *l, uint32_t bone_count, sbfi_arena *arena) {
@@ -10,21 +10,22 @@ bool sbfi_bone_links_make(sbfi_bone_links *l, uint32_t bone_count, sbfi_arena *a
   return l->segments && l->limbs;
 }
 
-/* Bone that moves a limb's root: the nearest ancestor that deforms. */
-static int32_t carrier_of(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t limb) {
+/* Nearest ancestor of a limb that deforms; SBF_NONE if there is none. */
+static int32_t deforming_ancestor_of(
+    const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t limb) {
   int32_t bone = in->bones[limb].parent;
   while (bone != SBF_NONE && !segments[bone].is_deforming) bone = in->bones[bone].parent;
   return bone;
 }
 
 void sbfi_bone_links_find(
-    sbfi_bone_links *l, const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t carrier) {
-  const sbfi_bone_segment *bone = &segments[carrier];
+    sbfi_bone_links *l, const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t parent) {
+  const sbfi_bone_segment *bone = &segments[parent];
   l->segments[0] = *bone;
   l->count = 0;
-  for (uint32_t limb = carrier + 1; limb < in->bone_count; limb++) {
+  for (uint32_t limb = parent + 1; limb < in->bone_count; limb++) {
     if (!segments[limb].is_deforming || bone->next == (int32_t)limb ||
-        carrier_of(in, segments, limb) != (int32_t)carrier)
+        deforming_ancestor_of(in, segments, limb) != (int32_t)parent)
       continue;
     sbfi_d3 from = sbfi_segment_nearest(bone, segments[limb].head);
     if (sbfi_d3_length(sbfi_d3_sub(segments[limb].head, from)) < BESIDE) continue;

@@ -19,7 +19,7 @@ typedef struct sbfi_shell {
  * bounding box's longest side, relative to its lowest corner. */
 typedef struct sbfi_weight_mesh {
   sbf_vec3 *sites; /* (site_count) */
-  /* (point_count) for a point without triangles that of the nearest point with one */
+  /* (point_count) a point without triangles has the site of the nearest point with one */
   uint32_t *site_of_point;
   uint32_t (*triangles)[3]; /* (triangle_count) by shell; closed shells face outwards */
   uint32_t *shell_of_site;  /* (site_count) */

@@ -43,7 +43,7 @@ typedef struct sbfi_weights_figures {
   uint32_t deforming_count;   /* bones that may have points */
   uint32_t ray_count;         /* number of rays of median_distance */
   double inside;              /* fraction of their length inside the body, to their tips */
-  double bone_extent;         /* ratio of their longest side to that of the surface without its thin ends */
+  double bone_extent;         /* ratio of the bones' longest side to the surface's, without its thin ends */
   double median_distance; /* from the surface to its bone, relative to half the local thickness of the body */
 } sbfi_weights_figures;
 
@@ -52,8 +52,8 @@ typedef struct sbfi_weights {
   uint32_t (*joints)[SBFI_WEIGHTS_PER_POINT]; /* (point_count) bones, descending by weight */
   float (*weights)[SBFI_WEIGHTS_PER_POINT];   /* (point_count) 0..1, sum 1; 0 for unused joints */
   uint32_t *shell_of_point;                   /* (point_count) numbered by first point */
-  /* (bone_count) Length of a bone that is nearest to no point, as a fraction of that of all bones that may
-   * have points; 0 for others. Such a bone is deep in the body, like a limb of another character. */
+  /* (bone_count) Length of a bone that is nearest to no point, as a fraction of the length of all bones that
+   * may have points; 0 for others. Such a bone is deep in the body, like a limb of another character. */
   float *idle_lengths;
   sbfi_weights_figures figures;
   sbf_allocator allocator;

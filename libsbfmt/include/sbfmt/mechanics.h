@@ -24,8 +24,8 @@ typedef struct sbf_surface_measures {
 } sbf_surface_measures;
 
 /* Uses the divergence theorem; a polygon counts as the triangles between its corners' mean and its sides.
- * `positions` (mesh->positions.count) replace the mesh's own, for example by those of a deformed body. NULL:
- * the mesh's own. */
+ * `positions` (mesh->positions.count) replace the mesh's own, for example with deformed positions. NULL: the
+ * mesh's own. */
 SBF_API void sbf_surface_measure(
     const sbf_polygon_mesh *mesh, const sbf_vec3 *positions, sbf_surface_measures *measures);
 
@@ -49,8 +49,8 @@ typedef struct sbf_solid {
 SBF_API void sbf_solid_measure(const sbf_polygon_mesh *mesh, sbf_solid *solid);
 
 /* Mass properties of a rigid body as simulated. Mass: the stated one, else density times the hull's volume.
- * Moments: the stated ones, else those of the hull filled uniformly with the mass, else those of a ball of
- * the mass and density. */
+ * Moments: the stated ones, else of the hull filled uniformly with the mass, else of a ball of the mass and
+ * density. */
 typedef struct sbf_rigid_measures {
   double mass;               /* kg; 0: it has neither a hull nor a mass */
   double volume;             /* m^3 of the hull; 0: no hull */

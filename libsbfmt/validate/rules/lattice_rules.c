@@ -15,7 +15,7 @@ static sbfi_d3 face_normal(const sbf_vec3 *points, const uint32_t p[4], int face
   return sbfi_d3_cross(sbfi_d3_sub(b, a), sbfi_d3_sub(c, a));
 }
 
-/* Largest cosine of the six dihedral angles, which is that of the sharpest. */
+/* Largest cosine of the six dihedral angles: the cosine of the sharpest. */
 static double sharpest_cosine(const sbf_vec3 *points, const uint32_t p[4]) {
   sbfi_d3 n[4];
   double sharpest = -1;

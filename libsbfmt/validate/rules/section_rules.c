@@ -2,8 +2,8 @@
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
-/* Approximate distance between the bounding box of points and the bone's line: that of its centre minus
- * half its diagonal. */
+/* Approximate distance between the bounding box of points and the bone's line: the distance of the box's
+ * centre minus half the diagonal. */
 static double distance_from(const sbf_bone *bone, sbf_vec3_list points) {
   sbfi_d3 middle = {0, 0, 0}, head = sbfi_d3_of(bone->head);
   double radius = 0;
