@@ -54,8 +54,7 @@ static void close_pipe(pipe_ends *p) {
 }
 
 /* Moves a descriptor above the standard three. A host may have closed those, and the child uses their
- * numbers.
- */
+ * numbers. */
 static bool lift(int *end) {
   if (*end > 2) return true;
   int lifted = fcntl(*end, F_DUPFD_CLOEXEC, 3);

@@ -36,8 +36,7 @@ typedef struct sbfi_winding {
 /* `soup` must outlive it. Allocates from `arena`; false if memory runs out. */
 bool sbfi_winding_make(sbfi_winding *winding, const sbfi_soup *soup, sbfi_arena *arena);
 
-/* Winding number of surface and caps, an integer; and of only the caps. The surface's own is the difference.
- */
+/* Winding number of surface and caps, an integer; of the caps only. The surface's own is the difference. */
 int sbfi_winding_of_closed(const sbfi_winding *winding, sbfi_d3 point);
 double sbfi_winding_of_caps(const sbfi_winding *winding, sbfi_d3 point);
 

@@ -11,8 +11,7 @@
  * because the balls' centres are only the points themselves, whose squared distances from the surface are
  * `depths2`, and in a coarse lattice such balls do not reach into corners. Ignores balls of a radius up to
  * `min_m`, and those whose centre is within a quarter of a greater ball's radius from its centre. False if
- * memory runs out.
- */
+ * memory runs out. */
 bool sbfi_lattice_thickness(const sbf_vec3 *points, const double *depths2, uint32_t count, double min_m,
     float *thickness, sbfi_arena *scratch);
 

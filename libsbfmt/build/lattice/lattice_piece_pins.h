@@ -11,8 +11,7 @@
  * points, which are the core and those of the level's pins. In a piece without pinned points the deepest
  * point comes first. `depths2` are the points' squared distances from the surface. Points that are `taken`
  * belong to other sets and are not added. A piece that is too small for the width keeps fewer points. False
- * if memory runs out.
- */
+ * if memory runs out. */
 bool sbfi_lattice_pin_pieces(const sbf_level *level, const double *depths2, const uint8_t *taken,
     double width, uint32_t *core, uint32_t *count, sbfi_arena *scratch);
 

@@ -291,9 +291,7 @@ static bool add_springs(work *w, sbfi_spring_counts *counts) {
   return true;
 }
 
-/* Masses of a body with a free interior; sbf_level_masses would assign too little mass to the interior
- * points.
- */
+/* Masses of a body with a free interior; sbf_level_masses would assign interior points too little mass. */
 static bool state_masses(work *w) {
   float *masses = sbf_asset_allocate(w->asset, w->point_count, sizeof *masses);
   if (!masses) return false;

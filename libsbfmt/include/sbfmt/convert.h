@@ -146,9 +146,7 @@ SBF_API sbf_status sbf_convert(
  * (IMPORT_MOTION) and the bones without a counterpart (IMPORT_MOTION_UNMATCHED).
  *
  * Uses only allocator, import_helper, report and user of `options` (may be NULL). On failure the asset keeps
- * the clips it had. IMPORT_MOTION_NONE: the file has no clip, or no bone that corresponds to one of the
- * asset.
- */
+ * the clips it had. IMPORT_MOTION_NONE: the file has no clip, or no bone with a counterpart. */
 SBF_API sbf_status sbf_convert_motion(
     sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error);
 
