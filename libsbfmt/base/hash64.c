@@ -78,9 +78,9 @@ static void add_numbers(sbfi_hash64 *hash, const void *numbers, size_t count, si
   }
   const uint8_t *at = numbers;
   for (size_t i = 0; i < count; i++, at += width) {
-    uint8_t turned[8];
-    for (size_t k = 0; k < width; k++) turned[k] = at[width - 1 - k];
-    sbfi_hash64_add_bytes(hash, turned, width);
+    uint8_t reversed[8];
+    for (size_t k = 0; k < width; k++) reversed[k] = at[width - 1 - k];
+    sbfi_hash64_add_bytes(hash, reversed, width);
   }
 }
 

@@ -14,7 +14,8 @@
 #include "build/sections/section_level.h"
 
 enum { MAX_BRUTE_POINTS = 4096, MIN_FRACTION = 100, MAX_REFINED = 3 };
-static const double MAX_OFF = 1e-3; /* fraction of a body's size: maximum error of an embedded point */
+static const double MAX_EMBEDDING_ERROR =
+    1e-3; /* fraction of a body's size: maximum error of an embedded point */
 static const double MAX_ELEMENTS = 1 << 24,
                     ELEMENTS_OF_CELL = 12; /* for all bodies; for a cube of one cell */
 
@@ -146,7 +147,7 @@ static bool find_missed(bool *missed, const sbf_soft_body *body, const sbf_level
   sbfi_arena_init(&own, &b->scratch.allocator, 0);
   bool good = sbfi_embedder_make(&embedder, SBFI_EMBEDS_VERTICES, body, level, NULL, UINT32_MAX, &own);
   for (uint32_t i = 0; good && !*missed && i < corners->count; i++)
-    *missed = (double)embedder.in_lattice[corners->at[i]].error > MAX_OFF * embedder.size;
+    *missed = (double)embedder.in_lattice[corners->at[i]].error > MAX_EMBEDDING_ERROR * embedder.size;
   sbfi_arena_free(&own);
   return good;
 }

@@ -64,7 +64,7 @@ typedef struct sbfi_glb {
   bool root_is_joint;             /* it is also the joint of points without a bone */
   bool emissive_strength, texture_transform, texture_webp; /* used extensions */
   bool failed;                                             /* memory ran out */
-  uint32_t lost_images, lost_tracks;
+  uint32_t omitted_images, omitted_tracks;
   double worst_m; /* largest error of the written motion, where a joint blend is singular */
 } sbfi_glb;
 

@@ -57,7 +57,7 @@ static void write_images(sbfi_glb *g) {
                                         : read_image(g, texture);
     if (written) continue;
     indices[i] = SBF_NONE;
-    g->lost_images++;
+    g->omitted_images++;
   }
 }
 

@@ -60,13 +60,13 @@ static bool fits(const sbf_clip *clip, uint32_t index) {
 static void write_track(sbfi_glb *g, const sbf_track *t, channels *c) {
   static const char *const paths[] = {"translation", "rotation", "scale"};
   static const char *const directions[] = {"LINEAR", "STEP", "CUBICSPLINE"};
-  bool turns = t->property == SBF_TRACK_PROPERTY_ROTATION,
+  bool is_rotation = t->property == SBF_TRACK_PROPERTY_ROTATION,
        cubic = t->interpolation == SBF_INTERPOLATION_CUBIC;
-  uint32_t width = turns ? 4 : 3, count = t->values.count / width;
+  uint32_t width = is_rotation ? 4 : 3, count = t->values.count / width;
   float *values = sbfi_glb_allocate(g, t->values.count, sizeof *values);
   if (!values) return;
   memcpy(values, t->values.at, t->values.count * sizeof *values);
-  for (uint32_t i = 0; turns && i < count; i++) {
+  for (uint32_t i = 0; is_rotation && i < count; i++) {
     float *q = values + 4 * (size_t)i;
     double length = sqrt((double)q[0] * (double)q[0] + (double)q[1] * (double)q[1] +
                          (double)q[2] * (double)q[2] + (double)q[3] * (double)q[3]);
@@ -75,7 +75,7 @@ static void write_track(sbfi_glb *g, const sbf_track *t, channels *c) {
   }
   uint32_t times = sbfi_glb_accessor(g, t->times.at, t->times.count, SBFI_GLB_FLOAT, SBFI_GLB_NO_TARGET);
   uint32_t numbers =
-      sbfi_glb_accessor(g, values, count, turns ? SBFI_GLB_VEC4 : SBFI_GLB_VEC3, SBFI_GLB_NO_TARGET);
+      sbfi_glb_accessor(g, values, count, is_rotation ? SBFI_GLB_VEC4 : SBFI_GLB_VEC3, SBFI_GLB_NO_TARGET);
   add_channel(c, (uint32_t)t->bone, paths[t->property], directions[t->interpolation], times, numbers);
 }
 
@@ -89,7 +89,7 @@ void sbfi_glb_write_clips(sbfi_glb *g) {
       if (fits(clip, k))
         write_track(g, &clip->tracks.at[k], &c);
       else
-        g->lost_tracks++;
+        g->omitted_tracks++;
     end(g, &c, *clip->name ? clip->name : clip->id);
   }
 }

@@ -92,8 +92,8 @@ static void report_unsupported(const sbfi_glb *g) {
       {a->ik_chains.count, "inverse kinematics"}, {a->gaits.count, "gaits"}, {a->chains.count, "chains"},
       {a->followers.count, "followers"}, {a->poses.count, "poses"}, {a->bone_masks.count, "bone masks"},
       {a->retarget_chains.count, "retargeting chains"}, {uv_sets, "uv sets beyond four"},
-      {g->lost_images, "images that are neither PNG nor JPEG nor WebP, or not found"},
-      {g->lost_tracks, "clip tracks without increasing times"},
+      {g->omitted_images, "images that are neither PNG nor JPEG nor WebP, or not found"},
+      {g->omitted_tracks, "clip tracks without increasing times"},
       {inherit, "bones that take no turn or scale of their parent"}};
   sbfi_export_left_out(g->e, "glTF", things, sizeof things / sizeof *things);
   if (g->worst_m > 0.0005)

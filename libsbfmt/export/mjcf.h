@@ -31,8 +31,8 @@ typedef struct mjcf_writer {
   uint32_t *hull_partners;          /* (rigid bodies) bits of the flexes that it collides with */
   uint8_t *jointed;                 /* (rigid bodies) scratch */
   /* Counts of unsupported parts. */
-  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, bare, loop_bounds, goals,
-      moduli, ratios, bending, sharing, selves;
+  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, without_level, loop_bounds,
+      goals, moduli, ratios, bending, sharing, selves;
 } mjcf_writer;
 
 /* A missing end of a joint. */

@@ -73,7 +73,7 @@ bool sbfi_mjcf_collect_flexes(mjcf_writer *w) {
   if (!w->flexes || !w->bone_has_pins || !w->bone_elastic || !w->rigid_elastic) return false;
   for (uint32_t b = 0; b < bodies; b++) {
     choose_level(&w->flexes[b], &asset->soft_bodies.at[b]);
-    if (!w->flexes[b].level) w->bare++;
+    if (!w->flexes[b].level) w->without_level++;
     if (w->flexes[b].level && !fill_flex(w, &w->flexes[b])) return false;
   }
   return true;
@@ -259,7 +259,7 @@ static void write_vertices(mjcf_writer *w, const mjcf_flex *flex, uint32_t b) {
 bool sbfi_mjcf_write_flexes(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   sbfi_text *text = &w->e->text;
-  if (w->bare == asset->soft_bodies.count) return true;
+  if (w->without_level == asset->soft_bodies.count) return true;
   sbfi_text_string(text, "  <deformable>\n");
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const mjcf_flex *flex = &w->flexes[b];

@@ -139,11 +139,11 @@ void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t inde
 
 static void write_pair(mjcf_writer *w, const sbf_joint *joint) {
   /* body2 defaults to the world, and body1 is required. */
-  bool turned = joint->body_a < 0;
+  bool is_swapped = joint->body_a < 0;
   sbfi_text_string(&w->e->text, " body1=\"");
-  sbfi_mjcf_rigid_name(w, turned ? joint->body_b : joint->body_a);
+  sbfi_mjcf_rigid_name(w, is_swapped ? joint->body_b : joint->body_a);
   sbfi_text_string(&w->e->text, "\" body2=\"");
-  sbfi_mjcf_rigid_name(w, turned ? joint->body_a : joint->body_b);
+  sbfi_mjcf_rigid_name(w, is_swapped ? joint->body_a : joint->body_b);
   sbfi_text_char(&w->e->text, '"');
 }
 

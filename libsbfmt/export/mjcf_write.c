@@ -45,7 +45,8 @@ sbf_status sbfi_export_mjcf(sbfi_export *e) {
   bool written = write_text(&w);
   sbfi_arena_free(&w.scratch);
   if (!written) return sbfi_export_no_memory(e);
-  const sbfi_left_out things[] = {{w.bare, "soft bodies without tetrahedra or springs (build makes them)"},
+  const sbfi_left_out things[] = {
+      {w.without_level, "soft bodies without tetrahedra or springs (build makes them)"},
       {w.goals, "goal springs"}, {w.moduli, "soft bodies whose elements differ (their mean is written)"},
       {w.bending, "held sheets' bending"}, {w.ratios, "Poisson ratios outside 0 to 0.499"},
       {w.massless, "moving bodies' masses of 0"}, {w.loops, "joints that close loops"},

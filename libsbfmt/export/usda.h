@@ -22,8 +22,8 @@ typedef struct usda_writer {
   usda_mesh *meshes;   /* (render meshes) */
   bool *bone_has_pins; /* (bones) moves points of written bodies */
   /* Counts of unsupported parts. */
-  uint32_t images, shared, bare, goals, moduli, damped, inelastic, pulleys, soft_limits, filters, weights,
-      keys;
+  uint32_t images, shared, without_level, goals, moduli, damped, inelastic, pulleys, soft_limits, filters,
+      weights, keys;
 } usda_writer;
 
 /* An id as a prim's name: characters other than letters, digits and '_' become '_'; then two '_' and the

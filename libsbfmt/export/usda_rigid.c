@@ -99,8 +99,8 @@ static void find_motions(usda_writer *w, const sbf_joint *joint, motion motions[
       if (is_of(joint->drives.at[i].target, k)) motions[k].drive = &joint->drives.at[i];
 }
 
-static void write_drive(usda_writer *w, const char *name, const sbf_drive *drive, bool turns) {
-  double angle = turns ? DEGREES : 1;
+static void write_drive(usda_writer *w, const char *name, const sbf_drive *drive, bool is_angular) {
+  double angle = is_angular ? DEGREES : 1;
   bool cone = drive->target == SBF_JOINT_AXIS_SWING;
   const struct {
     const char *what;
@@ -172,19 +172,19 @@ static void write_plain(usda_writer *w, const sbf_joint *joint, uint32_t index, 
 
 /* A joint that rotates about or slides along +X. */
 static void write_single(
-    usda_writer *w, const sbf_joint *joint, uint32_t index, const motion *one, bool turns) {
-  const char *name = turns ? "angular" : "linear";
-  sbfi_usda_open(w, turns ? "PhysicsRevoluteJoint" : "PhysicsPrismaticJoint", joint->id, index,
-      !one->drive ? ""
-      : turns     ? "\"PhysicsDriveAPI:angular\""
-                  : "\"PhysicsDriveAPI:linear\"");
+    usda_writer *w, const sbf_joint *joint, uint32_t index, const motion *one, bool is_angular) {
+  const char *name = is_angular ? "angular" : "linear";
+  sbfi_usda_open(w, is_angular ? "PhysicsRevoluteJoint" : "PhysicsPrismaticJoint", joint->id, index,
+      !one->drive  ? ""
+      : is_angular ? "\"PhysicsDriveAPI:angular\""
+                   : "\"PhysicsDriveAPI:linear\"");
   sbfi_usda_write_line(w, "uniform token physics:axis = \"X\"");
   write_ends(w, joint);
   if (one->bounded) {
-    sbfi_usda_write_f32(w, "float physics:lowerLimit", (float)(one->min * (turns ? DEGREES : 1)));
-    sbfi_usda_write_f32(w, "float physics:upperLimit", (float)(one->max * (turns ? DEGREES : 1)));
+    sbfi_usda_write_f32(w, "float physics:lowerLimit", (float)(one->min * (is_angular ? DEGREES : 1)));
+    sbfi_usda_write_f32(w, "float physics:upperLimit", (float)(one->max * (is_angular ? DEGREES : 1)));
   }
-  if (one->drive) write_drive(w, name, one->drive, turns);
+  if (one->drive) write_drive(w, name, one->drive, is_angular);
   sbfi_usda_close(w);
 }
 

@@ -237,7 +237,7 @@ static bool write_body(usda_writer *w, uint32_t index) {
   const sbf_soft_body *body = &asset->soft_bodies.at[index];
   const sbf_level *level = sbfi_export_level(body);
   if (!level) {
-    w->bare++;
+    w->without_level++;
     return true;
   }
   bool sheet = level->model == SBF_ELASTIC_MODEL_SPRINGS;

@@ -81,7 +81,8 @@ sbf_status sbfi_export_usda(sbfi_export *e) {
   bool written = write_all(&w);
   sbfi_arena_free(&w.scratch);
   if (!written) return sbfi_export_no_memory(e);
-  const sbfi_left_out soft[] = {{w.bare, "soft bodies that are neither lattices nor sheets of springs"},
+  const sbfi_left_out soft[] = {
+      {w.without_level, "soft bodies that are neither lattices nor sheets of springs"},
       {w.goals, "goal springs"}, {w.moduli, "soft bodies whose elements differ (their mean is written)"},
       {w.damped, "soft bodies' damping"}, {w.inelastic, "soft bodies that yield, tear or are blown up"},
       {asset->cross_springs.count, "sets of cross springs"}};

@@ -12,7 +12,7 @@ bool sbfi_direct_solver_helps(uint32_t point_count) {
   return point_count <= MAX_POINTS;
 }
 
-static bool takes_part(const sbfi_block_matrix *m, uint32_t point) {
+static bool is_included(const sbfi_block_matrix *m, uint32_t point) {
   return m->blocks[9 * (size_t)m->diagonals[point]] > 0;
 }
 
@@ -32,7 +32,7 @@ static uint32_t visit(sbfi_direct_solver *s, const sbfi_block_matrix *m, uint32_
     uint32_t first = end;
     for (uint32_t k = m->begins[s->points[next]]; k < m->begins[s->points[next] + 1]; k++) {
       uint32_t point = m->columns[k], at = end;
-      if (!takes_part(m, point) || s->order[point] != UINT32_MAX) continue;
+      if (!is_included(m, point) || s->order[point] != UINT32_MAX) continue;
       s->order[point] = end++;
       for (; at > first && count_neighbours(m, s->points[at - 1]) > count_neighbours(m, point); at--)
         s->points[at] = s->points[at - 1];
@@ -50,7 +50,7 @@ static void forget(sbfi_direct_solver *s, uint32_t from) {
 static void order_points(sbfi_direct_solver *s, const sbfi_block_matrix *m) {
   for (uint32_t i = 0; i < m->row_count; i++) s->order[i] = UINT32_MAX;
   for (uint32_t i = 0; i < m->row_count; i++) {
-    if (!takes_part(m, i) || s->order[i] != UINT32_MAX) continue;
+    if (!is_included(m, i) || s->order[i] != UINT32_MAX) continue;
     uint32_t from = s->point_count, start = i;
     /* Two searches from the far end: a shortened version of George and Liu's search for a peripheral
      * point. */

@@ -49,12 +49,12 @@ static void apply_hinges(const sbf_spring_network *network, const double *scale,
   for (uint32_t h = 0; h < network->hinge_count; h++) {
     const uint32_t *at = network->hinges[h].at;
     const sbf_vec3 *gradients = network->hinge_gradients + 4 * (size_t)h;
-    double scales[4], turned = 0;
+    double scales[4], angle = 0;
     for (int k = 0; k < 4; k++) {
       scales[k] = network->masses[at[k]] > 0 ? (scale ? scale[at[k]] : 1) : 0;
-      turned += sbfi_d3_dot(sbfi_d3_of(gradients[k]), load(x, at[k], scales[k]));
+      angle += sbfi_d3_dot(sbfi_d3_of(gradients[k]), load(x, at[k], scales[k]));
     }
-    double moment = (double)network->hinge_stiffness[h] * turned;
+    double moment = (double)network->hinge_stiffness[h] * angle;
     for (int k = 0; k < 4; k++) add(y, at[k], sbfi_d3_of(gradients[k]), moment * scales[k]);
   }
 }

@@ -47,8 +47,8 @@ sbfi_region_fit sbfi_region_fit_of(const sbfi_region_sums *sums) {
 }
 
 sbfi_d3 sbfi_region_goal(const sbfi_region_fit *fit, sbfi_d3 offset) {
-  sbfi_d3 turned = sbfi_d3_add(
+  sbfi_d3 rotated = sbfi_d3_add(
       sbfi_d3_add(sbfi_d3_scale(fit->columns[0], offset.x), sbfi_d3_scale(fit->columns[1], offset.y)),
       sbfi_d3_scale(fit->columns[2], offset.z));
-  return sbfi_d3_add(fit->center, turned);
+  return sbfi_d3_add(fit->center, rotated);
 }

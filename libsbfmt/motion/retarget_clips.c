@@ -44,13 +44,13 @@ static sbf_status no_memory(motion *m) {
 static void report_finding(motion *m, sbf_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 static void report_finding(motion *m, sbf_code code, const char *format, ...) {
-  sbf_diagnostic note;
+  sbf_diagnostic diagnostic;
   va_list arguments;
   va_start(arguments, format);
-  sbfi_diagnose_v(&note, code, format, arguments);
+  sbfi_diagnose_v(&diagnostic, code, format, arguments);
   va_end(arguments);
-  sbfi_copy_text(note.file, sizeof note.file, m->file);
-  sbfi_report(m->reporter, &note);
+  sbfi_copy_text(diagnostic.file, sizeof diagnostic.file, m->file);
+  sbfi_report(m->reporter, &diagnostic);
 }
 
 /* --- Setup common to all clips ------------------------------------------------------------------------ */
@@ -66,7 +66,7 @@ static void align_bones(motion *m, const sbfi_bone_frame *from_rest) {
     memcpy(m->align[i], none, sizeof none);
     if (match->source == SBF_NONE) continue;
     const double *source = from_rest[match->source].rotation;
-    double back[4];
+    double inverse[4];
     if (match->part == SBFI_PART_LIMB || match->part == SBFI_PART_THIGH) {
       double here[3], there[3];
       sbfi_quatd_rotate(m->rest[i].rotation, along, here);
@@ -77,9 +77,9 @@ static void align_bones(motion *m, const sbfi_bone_frame *from_rest) {
                m->matches[parent].part == SBFI_PART_LIMB) {
       memcpy(m->align[i], m->align[parent], sizeof none);
     }
-    sbfi_quatd_conjugate(source, back);
+    sbfi_quatd_conjugate(source, inverse);
     sbfi_quatd_multiply(m->align[i], m->rest[i].rotation, m->aligned[i]);
-    sbfi_quatd_multiply(back, m->aligned[i], m->aligned[i]);
+    sbfi_quatd_multiply(inverse, m->aligned[i], m->aligned[i]);
   }
 }
 
@@ -132,13 +132,13 @@ static void find_traveller(motion *m, const sbfi_bone_frame *from_rest) {
   middle_of(m->rest, m->pivots, m->pivot_count, own);
   middle_of(from_rest, m->leaders, m->pivot_count, other);
   m->ratio = own[1] > here && other[1] > there ? (own[1] - here) / (other[1] - there) : 1;
-  double back[4];
+  double inverse[4];
   for (int k = 0; k < 3; k++) {
     m->pivot[k] = own[k];
     m->arm[k] = own[k] - m->rest[m->traveller].position[k];
   }
-  sbfi_quatd_conjugate(m->rest[m->traveller].rotation, back);
-  sbfi_quatd_rotate(back, m->arm, m->arm);
+  sbfi_quatd_conjugate(m->rest[m->traveller].rotation, inverse);
+  sbfi_quatd_rotate(inverse, m->arm, m->arm);
 }
 
 static sbf_status prepare(motion *m) {
@@ -244,15 +244,15 @@ static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_fra
     int32_t parent = m->to->bones.at[i].parent;
     static const sbfi_bone_frame root = {.rotation = {0, 0, 0, 1}};
     const sbfi_bone_frame *above = parent == SBF_NONE ? &root : &frames[parent];
-    double back[4], local[4];
+    double inverse[4], local[4];
     sbfi_bone_frame *f = &frames[i];
     sbfi_quatd_multiply(above->rotation, rest->rest_local[i].rotation, f->rotation);
     sbfi_quatd_rotate(above->rotation, rest->rest_local[i].position, f->position);
     for (int k = 0; k < 3; k++) f->position[k] += above->position[k];
-    sbfi_quatd_conjugate(above->rotation, back);
+    sbfi_quatd_conjugate(above->rotation, inverse);
     if (m->matches[i].source != SBF_NONE) {
       sbfi_quatd_multiply(source[m->matches[i].source].rotation, m->aligned[i], f->rotation);
-      sbfi_quatd_multiply(back, f->rotation, local);
+      sbfi_quatd_multiply(inverse, f->rotation, local);
       put_rotation(keys[i].rotations + 4 * (size_t)key, local, key == 0);
     }
     if ((int32_t)i != m->traveller) continue;
@@ -263,7 +263,7 @@ static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_fra
       f->position[k] = m->pivot[k] + m->ratio * (direction[k] - start[k]) - arm[k];
       within[k] = f->position[k] - above->position[k];
     }
-    sbfi_quatd_rotate(back, within, within);
+    sbfi_quatd_rotate(inverse, within, within);
     for (int k = 0; k < 3; k++) keys[i].positions[3 * (size_t)key + (size_t)k] = (float)within[k];
   }
 }

@@ -31,7 +31,7 @@ static void fill(stream *s) {
 }
 
 /* Reads up to 16 bits. `fill` is required at least before every second call. */
-static uint32_t take(stream *s, uint32_t count) {
+static uint32_t take_bits(stream *s, uint32_t count) {
   uint32_t value = (uint32_t)(s->bits & ((1u << count) - 1));
   s->bits >>= count;
   s->bit_count -= count;
@@ -63,11 +63,11 @@ static bool make_huffman(huffman *h, const uint8_t *lengths, uint32_t count) {
   for (uint32_t i = 0; i < count; i++) {
     uint32_t length = lengths[i];
     if (length == 0) continue;
-    uint32_t own = first[length]++, turned = 0;
+    uint32_t own = first[length]++, reversed = 0;
     h->symbols[indices[length]++] = (uint16_t)i;
     if (length > FAST_BITS) continue;
-    for (uint32_t bit = 0; bit < length; bit++) turned |= (own >> bit & 1) << (length - 1 - bit);
-    for (uint32_t at = turned; at < 1u << FAST_BITS; at += 1u << length)
+    for (uint32_t bit = 0; bit < length; bit++) reversed |= (own >> bit & 1) << (length - 1 - bit);
+    for (uint32_t at = reversed; at < 1u << FAST_BITS; at += 1u << length)
       h->fast[at] = (uint16_t)(i << 4 | length);
   }
   return true;
@@ -77,7 +77,7 @@ static bool make_huffman(huffman *h, const uint8_t *lengths, uint32_t count) {
 static int32_t decode(stream *s, const huffman *h) {
   uint32_t entry = h->fast[s->bits & ((1u << FAST_BITS) - 1)];
   if (entry) {
-    take(s, entry & 15);
+    take_bits(s, entry & 15);
     return (int32_t)(entry >> 4);
   }
   int32_t code = 0, first = 0, index = 0;
@@ -86,7 +86,7 @@ static int32_t decode(stream *s, const huffman *h) {
     int32_t count = h->count[length];
     code |= (int32_t)(bits & 1);
     if (code - first < count) {
-      take(s, length);
+      take_bits(s, length);
       return h->symbols[index + code - first];
     }
     index += count;
@@ -97,9 +97,9 @@ static int32_t decode(stream *s, const huffman *h) {
 }
 
 static bool stored_block(stream *s) {
-  take(s, s->bit_count & 7);
+  take_bits(s, s->bit_count & 7);
   fill(s);
-  uint32_t size = take(s, 16), inverse = take(s, 16);
+  uint32_t size = take_bits(s, 16), inverse = take_bits(s, 16);
   if (size != (inverse ^ 0xFFFF) || is_beyond(s)) return false;
   /* Returns the lookahead to the input. */
   s->in -= (s->bit_count - s->missing) / 8;
@@ -116,7 +116,7 @@ static bool copy_match(stream *s, uint32_t length, const huffman *distances) {
       385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
   int32_t code = decode(s, distances);
   if (code < 0 || code >= DISTANCES) return false;
-  size_t distance = bases[code] + take(s, code < 4 ? 0 : (uint32_t)code / 2 - 1);
+  size_t distance = bases[code] + take_bits(s, code < 4 ? 0 : (uint32_t)code / 2 - 1);
   if (distance > (size_t)(s->out - s->begin) || length > (size_t)(s->out_end - s->out)) return false;
   const uint8_t *from = s->out - distance;
   while (length--) *s->out++ = *from++; /* ranges may overlap: reads bytes that were just written */
@@ -139,7 +139,7 @@ static bool coded_block(stream *s, const huffman *literals, const huffman *dista
     uint32_t index = (uint32_t)symbol - END_OF_BLOCK - 1;
     if (index >= 29) return false;
     uint32_t extra = index < 8 || index == 28 ? 0 : index / 4 - 1;
-    if (!copy_match(s, bases[index] + take(s, extra), distances)) return false;
+    if (!copy_match(s, bases[index] + take_bits(s, extra), distances)) return false;
   }
 }
 
@@ -158,11 +158,12 @@ static bool dynamic_block(stream *s) {
   huffman literals, distances;
   uint8_t lengths[LITERALS + 32] = {0};
   fill(s);
-  uint32_t literal_count = take(s, 5) + 257, distance_count = take(s, 5) + 1, code_count = take(s, 4) + 4;
+  uint32_t literal_count = take_bits(s, 5) + 257, distance_count = take_bits(s, 5) + 1,
+           code_count = take_bits(s, 4) + 4;
   if (literal_count > 286 || distance_count > DISTANCES) return false;
   for (uint32_t i = 0; i < code_count; i++) {
     fill(s);
-    lengths[order[i]] = (uint8_t)take(s, 3);
+    lengths[order[i]] = (uint8_t)take_bits(s, 3);
   }
   huffman *codes = &distances; /* reuses the memory until the distances are decoded */
   if (!make_huffman(codes, lengths, LENGTH_CODES)) return false;
@@ -174,7 +175,7 @@ static bool dynamic_block(stream *s) {
     if (symbol >= 16) {
       if (symbol == 16 && i == 0) return false;
       value = symbol == 16 ? lengths[i - 1] : 0;
-      times = symbol == 16 ? 3 + take(s, 2) : symbol == 17 ? 3 + take(s, 3) : 11 + take(s, 7);
+      times = symbol == 16 ? 3 + take_bits(s, 2) : symbol == 17 ? 3 + take_bits(s, 3) : 11 + take_bits(s, 7);
     }
     if (times > literal_count + distance_count - i) return false;
     while (times--) lengths[i++] = (uint8_t)value;
@@ -203,13 +204,13 @@ bool sbfi_inflate(const uint8_t *stored, size_t stored_size, uint8_t *to, size_t
   stream s = {.in = stored + 2, .in_end = stored + stored_size, .begin = to, .out = to, .out_end = to + size};
   for (bool last = false; !last;) {
     fill(&s);
-    last = take(&s, 1);
-    uint32_t kind = take(&s, 2);
+    last = take_bits(&s, 1);
+    uint32_t kind = take_bits(&s, 2);
     bool good = kind == 0 ? stored_block(&s) : kind == 1 ? fixed_block(&s) : kind == 2 && dynamic_block(&s);
     if (!good || is_beyond(&s)) return false;
   }
   fill(&s);
-  take(&s, s.bit_count & 7);
+  take_bits(&s, s.bit_count & 7);
   if (s.out != s.out_end || is_beyond(&s)) return false;
   const uint8_t *end = s.in - (s.bit_count - s.missing) / 8;
   if (s.in_end - end != 4) return false;

@@ -56,7 +56,7 @@ static bool order_bytes(sbfi_packed_plan *plan) {
 }
 
 /* Assigns offsets: header, table, then the chunks in order. */
-static sbf_status lay_out(layout *l, sbf_diagnostic *error) {
+static sbf_status assign_offsets(layout *l, sbf_diagnostic *error) {
   size_t count = l->plan.chunks.count;
   l->front_size = SBFI_PACKED_HEADER_SIZE + count * SBFI_PACKED_ENTRY_SIZE;
   l->front = sbfi_arena_allocate(&l->plan.arena, 1, l->front_size);
@@ -95,7 +95,7 @@ static sbf_status make_layout(layout *l, const sbf_asset *asset, const sbf_save_
   if (planned == SBFI_PLANNED && !options->store) planned = sbfi_packed_plan_compress(&l->plan, &coder);
   sbfi_packed_coder_free(&coder);
   status = diagnose_plan(planned, error);
-  if (status == SBF_OK) status = lay_out(l, error);
+  if (status == SBF_OK) status = assign_offsets(l, error);
   if (status != SBF_OK) sbfi_packed_plan_free(&l->plan);
   return status;
 }

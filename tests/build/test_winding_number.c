@@ -35,7 +35,7 @@ START_TEST(a_closed_cube)
   wind(&cube);
   ck_assert_uint_eq(soup.point_count, 98);
   ck_assert_uint_eq(soup.triangle_count, 192);
-  ck_assert_uint_eq(soup.cap_count + soup.turned_count, 0);
+  ck_assert_uint_eq(soup.cap_count + soup.flipped_count, 0);
   for (double x = -1.875; x < 2; x += 0.25)
     for (double y = -1.875; y < 2; y += 0.25)
       ck_assert_int_eq(sbfi_winding_of_closed(&winding, (sbfi_d3){x, y, 0.1}), fabs(x) < 1 && fabs(y) < 1);
@@ -52,7 +52,7 @@ START_TEST(turned_patches_are_found)
     corners[4 * p + 3] = swap;
   }
   wind(&cube);
-  ck_assert_uint_eq(soup.turned_count, 14);
+  ck_assert_uint_eq(soup.flipped_count, 14);
   ck_assert_uint_eq(soup.cap_count, 0);
   ck_assert_double_eq(number_at(0.3, 0.2, 0.1), 1);
   ck_assert_double_eq(number_at(1.3, 0.2, 0.1), 0);

@@ -263,7 +263,8 @@ static bool embed_all(work *w, uint32_t target, const sbf_vec3_list *positions, 
 }
 
 /* Counts vertices that are far outside or are embedded inaccurately. */
-static bool note_embedded(work *w, uint32_t target, uint32_t vertex, const sbfi_embedded_vertex *embedded) {
+static bool count_inaccurate(
+    work *w, uint32_t target, uint32_t vertex, const sbfi_embedded_vertex *embedded) {
   const sbf_level *level = w->targets[target].level;
   if (embedded->outside > w->report->farthest) w->report->farthest = embedded->outside;
   bool far = level->cell > 0 && embedded->outside > level->cell;
@@ -292,7 +293,7 @@ static bool embed_list(work *w, uint32_t target, int32_t mesh, const sbf_vec3_li
     weights[i] = embedded[i].weights;
     if (vertices) vertices[i] = list[i].vertex;
     if (blends) blends[i] = list[i].blend;
-    good = !count_it || note_embedded(w, target, list[i].vertex, &embedded[i]);
+    good = !count_it || count_inaccurate(w, target, list[i].vertex, &embedded[i]);
   }
   sbfi_array_free(&items);
   if (!good) return false;

@@ -1,6 +1,6 @@
 #include "build/embed/point_rings.h"
 
-static void take(sbfi_point_rings *r, uint32_t point) {
+static void add_point(sbfi_point_rings *r, uint32_t point) {
   for (uint32_t i = 0; i < r->count; i++)
     if (r->points[i] == point) return;
   if (r->count == SBFI_MAX_RING_POINTS)
@@ -9,9 +9,9 @@ static void take(sbfi_point_rings *r, uint32_t point) {
     r->points[r->count++] = point;
 }
 
-static void take_corners(void *user, uint32_t tetrahedron) {
+static void add_corners(void *user, uint32_t tetrahedron) {
   sbfi_point_rings *r = user;
-  for (int k = 0; k < 4; k++) take(r, r->finder->tetrahedra[tetrahedron].at[k]);
+  for (int k = 0; k < 4; k++) add_point(r, r->finder->tetrahedra[tetrahedron].at[k]);
 }
 
 void sbfi_point_rings_begin(
@@ -19,13 +19,13 @@ void sbfi_point_rings_begin(
   rings->finder = finder;
   rings->count = rings->widened = 0;
   rings->full = false;
-  take_corners(rings, tetrahedron);
+  add_corners(rings, tetrahedron);
 }
 
 bool sbfi_point_rings_widen(sbfi_point_rings *rings) {
   uint32_t before = rings->count;
   while (rings->widened < before && !rings->full)
-    sbfi_find_tetrahedra_about(rings->finder, rings->points[rings->widened++], take_corners, rings);
+    sbfi_find_tetrahedra_about(rings->finder, rings->points[rings->widened++], add_corners, rings);
   return rings->count > before && !rings->full;
 }
 

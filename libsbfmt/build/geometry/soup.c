@@ -159,7 +159,7 @@ static bool flip_pieces(work *w) {
     uint32_t swap = soup->triangles[t][1];
     soup->triangles[t][1] = soup->triangles[t][2];
     soup->triangles[t][2] = swap;
-    soup->turned_count++;
+    soup->flipped_count++;
   }
   return true;
 }

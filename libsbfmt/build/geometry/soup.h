@@ -10,8 +10,8 @@ typedef struct sbfi_soup {
   sbfi_d3 *points;          /* (point_count) one for each exact position */
   uint32_t (*triangles)[3]; /* (triangle_count + cap_count), caps last */
   uint32_t point_count, triangle_count, cap_count;
-  sbfi_d3 low, high;     /* bounds of the triangles' points; caps stay within */
-  uint32_t turned_count; /* number of flipped triangles */
+  sbfi_d3 low, high;      /* bounds of the triangles' points; caps stay within */
+  uint32_t flipped_count; /* number of flipped triangles */
 } sbfi_soup;
 
 /* Triangulates polygons as fans from their first corners, merges coincident points, drops degenerate

@@ -85,9 +85,9 @@ static bool add_cover(void *user, uint32_t triangle) {
     sbf_vec3 at = c->by->positions[c->by->triangles[triangle].points[k]];
     into_frame(&c->frame, (double[]){(double)at.x, (double)at.y, (double)at.z}, o.at[k]);
   }
-  double turn = (o.at[1][0] - o.at[0][0]) * (o.at[2][1] - o.at[0][1]) -
-                (o.at[1][1] - o.at[0][1]) * (o.at[2][0] - o.at[0][0]);
-  if (!(turn > 0)) return true; /* it faces away */
+  double doubled_area = (o.at[1][0] - o.at[0][0]) * (o.at[2][1] - o.at[0][1]) -
+                        (o.at[1][1] - o.at[0][1]) * (o.at[2][0] - o.at[0][0]);
+  if (!(doubled_area > 0)) return true; /* it faces away */
   for (int k = 0; k < 3; k++) cut(&o, c->frame.corners[k], c->frame.corners[(k + 1) % 3]);
   double area = 0;
   for (int i = 0; i < o.count; i++) {

@@ -123,9 +123,9 @@ static sbfi_d3 moved_normal(
 /* Whether a normal is opposite to the rest normal rotated by the corners' fractions. */
 static bool is_flipped(
     const sbfi_blend_joint *c, int pose, sbfi_d3 normal, sbfi_d3 rest, const double fractions[3]) {
-  sbfi_d3 turn =
+  sbfi_d3 change =
       sbfi_d3_scale(transform(c->rotations[pose], rest), (fractions[0] + fractions[1] + fractions[2]) / 3);
-  return sbfi_d3_dot(normal, sbfi_d3_add(rest, turn)) < 0;
+  return sbfi_d3_dot(normal, sbfi_d3_add(rest, change)) < 0;
 }
 
 /* Finds or adds the branch of a bone. NULL if memory runs out. */

@@ -80,7 +80,7 @@ static void reverse_polygons(sbf_polygon_mesh *mesh) {
 }
 
 /* Copies the part of a pin set that is in the current section; false if memory runs out. */
-static bool take_pins(work *w, const sbfi_section_cutter *cutter, const sbf_pin_set *from,
+static bool copy_pins(work *w, const sbfi_section_cutter *cutter, const sbf_pin_set *from,
     const uint32_t *points_of, int32_t bone, sbf_pin_set *to) {
   uint32_t count = 0;
   uint32_t *points = sbf_asset_allocate(w->asset, (size_t)from->points.count + 1, sizeof *points);
@@ -110,7 +110,7 @@ static bool make_pins(work *w, const sbfi_section_cutter *cutter, sbf_soft_body 
   if (!sets) return false;
   for (uint32_t m = 0; m < meshes->count; m++)
     for (uint32_t i = 0; w->skin.points_of_mesh[m] && i < meshes->at[m].pins.count; i++) {
-      if (!take_pins(
+      if (!copy_pins(
               w, cutter, &meshes->at[m].pins.at[i], w->skin.points_of_mesh[m], body->bone, &sets[count]))
         return false;
       count += sets[count].points.count > 0;

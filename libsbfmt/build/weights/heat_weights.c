@@ -98,7 +98,7 @@ static void add_scaled(const heat_system *s, const sums alpha) {
     }
 }
 
-static void turn_search(const heat_system *s, const sums beta) {
+static void update_search(const heat_system *s, const sums beta) {
   lanes factor;
   for (int k = 0; k < LANES; k++) factor[k] = (float)beta[k];
   for (uint32_t i = 0; i < s->count; i++)
@@ -122,7 +122,7 @@ static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const ui
       beta[k] = alpha[k] > 0 ? rz_next[k] / rz[k] : 0;
       rz[k] = rz_next[k];
     }
-    turn_search(s, beta);
+    update_search(s, beta);
   }
   return MAX_ITERATIONS;
 }

@@ -7,7 +7,7 @@
 
 typedef struct side {
   const sbf_level *level; /* NULL: missing */
-  uint8_t *holds;
+  uint8_t *pin_states;
 } side;
 
 static side side_of(sbfi_validation *v, int32_t body, uint32_t level, const char *path, char letter) {
@@ -19,8 +19,8 @@ static side side_of(sbfi_validation *v, int32_t body, uint32_t level, const char
     return s;
   }
   s.level = &at->levels.at[level];
-  s.holds = sbfi_scratch(v, s.level->positions.count, 1);
-  if (s.holds) sbfi_find_pin_states(s.level, s.holds);
+  s.pin_states = sbfi_scratch(v, s.level->positions.count, 1);
+  if (s.pin_states) sbfi_find_pin_states(s.level, s.pin_states);
   return s;
 }
 
@@ -40,7 +40,7 @@ static void check_spring(sbfi_validation *v, const sbf_cross_springs *set, const
   double rest = set->rest_lengths.count ? (double)set->rest_lengths.at[i] : sbfi_d3_length(direction);
   if (rest == 0)
     sbfi_found(v, SBF_CODE_SPRING_NO_LENGTH, path, i, "spring %u between two bodies has no rest length", i);
-  if (a->holds[p[0]] == SBFI_PINNED && b->holds[p[1]] == SBFI_PINNED)
+  if (a->pin_states[p[0]] == SBFI_PINNED && b->pin_states[p[1]] == SBFI_PINNED)
     sbfi_found(
         v, SBF_CODE_SPRING_INERT, path, i, "spring %u joins two held points, %u and %u", i, p[0], p[1]);
 }
@@ -71,7 +71,7 @@ void sbfi_check_cross_springs(sbfi_validation *v) {
     if (set->body_a == set->body_b && set->level_a == set->level_b)
       sbfi_found(v, SBF_CODE_CROSS_SPRING_ONE_BODY, path.text, -1, "both ends are of '%s'",
           sbfi_label(v->asset->soft_bodies.at[set->body_a].name, v->asset->soft_bodies.at[set->body_a].id));
-    for (uint32_t i = 0; a.holds && b.holds && i < set->ends.count; i++)
+    for (uint32_t i = 0; a.pin_states && b.pin_states && i < set->ends.count; i++)
       check_spring(v, set, &a, &b, i, ends.text);
     for (uint32_t i = 0; i < set->stiffness.count && set->ends.count; i++)
       if (set->stiffness.at[i] == 0)

@@ -24,7 +24,7 @@ static bool overlap(const sbfi_box *a, const sbfi_box *b) {
 }
 
 /* Whether a point of the triangle's plane is strictly inside it. */
-static bool holds(const triangle *t, sbfi_d3 position) {
+static bool contains(const triangle *t, sbfi_d3 position) {
   for (int k = 0; k < 3; k++) {
     sbfi_d3 side = sbfi_d3_sub(t->corners[(k + 1) % 3], t->corners[k]);
     sbfi_d3 inwards = sbfi_d3_cross(t->normal, side);
@@ -42,12 +42,12 @@ static bool pierces(const triangle *a, const triangle *b, double slack) {
     double from = heights[k], to = heights[(k + 1) % 3];
     if (!((from > slack && to < -slack) || (from < -slack && to > slack))) continue;
     sbfi_d3 displacement = sbfi_d3_sub(a->corners[(k + 1) % 3], a->corners[k]);
-    if (holds(b, sbfi_d3_add(a->corners[k], sbfi_d3_scale(displacement, from / (from - to))))) return true;
+    if (contains(b, sbfi_d3_add(a->corners[k], sbfi_d3_scale(displacement, from / (from - to))))) return true;
   }
   return false;
 }
 
-static void note(finder *f, uint32_t a, uint32_t b) {
+static void record(finder *f, uint32_t a, uint32_t b) {
   uint32_t low = a < b ? a : b, high = a < b ? b : a;
   if (high < f->partners[low]) f->partners[low] = high;
 }
@@ -57,7 +57,7 @@ static void compare_triangles(finder *f, uint32_t a, uint32_t b) {
   uint32_t low = p < q ? p : q, high = p < q ? q : p;
   if (low == high || f->partners[low] <= high || !overlap(&f->boxes[a], &f->boxes[b])) return;
   const triangle *one = &f->triangles[a], *other = &f->triangles[b];
-  if (pierces(one, other, f->slack) || pierces(other, one, f->slack)) note(f, p, q);
+  if (pierces(one, other, f->slack) || pierces(other, one, f->slack)) record(f, p, q);
 }
 
 static void compare_leaves(finder *f, const sbfi_box_node *a, const sbfi_box_node *b) {

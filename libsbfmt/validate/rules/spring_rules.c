@@ -12,7 +12,7 @@ static const double MAX_STRETCH = 2, MIN_STRETCH = 0.5;
 typedef struct spring_level {
   sbfi_validation *v;
   const sbf_level *at;
-  uint8_t *holds;
+  uint8_t *pin_states;
   const char *path;
 } spring_level;
 
@@ -44,7 +44,7 @@ static void check_set(const spring_level *l, uint32_t number) {
       continue;
     }
     check_length(l, set, i, ends.text);
-    if (l->holds[p[0]] == SBFI_PINNED && l->holds[p[1]] == SBFI_PINNED)
+    if (l->pin_states[p[0]] == SBFI_PINNED && l->pin_states[p[1]] == SBFI_PINNED)
       sbfi_found(l->v, SBF_CODE_SPRING_INERT, ends.text, i, "spring %u joins two held points, %u and %u", i,
           p[0], p[1]);
   }
@@ -88,8 +88,8 @@ static void find_duplicates(const spring_level *l) {
 
 static void check_level(sbfi_validation *v, const sbf_level *level, const char *path) {
   spring_level l = {v, level, sbfi_scratch(v, level->positions.count, 1), path};
-  if (!l.holds) return;
-  sbfi_find_pin_states(level, l.holds);
+  if (!l.pin_states) return;
+  sbfi_find_pin_states(level, l.pin_states);
   for (uint32_t s = 0; s < level->springs.count; s++) check_set(&l, s);
   find_duplicates(&l);
   if (level->model == SBF_ELASTIC_MODEL_SPRINGS && level->springs.count == 0)
