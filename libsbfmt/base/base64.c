@@ -36,7 +36,7 @@ static inline int digit_value(char c) {
   return (unsigned char)c < 128 ? values[(unsigned char)c] : -1;
 }
 
-/* Decodes complete groups of four digits until one is invalid; returns the offset after them. */
+/* Decodes complete groups of four digits up to the first other character; returns the offset after them. */
 static size_t read_groups(const char *text, size_t length, uint8_t **to) {
   uint8_t *at = *to;
   size_t i = 0;
