@@ -52,11 +52,11 @@ typedef struct sbf_fix_result {
 } sbf_fix_result;
 
 /* Makes `*fixed`, a copy of the asset with every fault repaired that has a single right answer. Rotations and
- * normals get unit length. Weights of skins, pins, embedded vertices and blends are cut to their ranges and
- * sum to one. Tetrahedra are oriented positively; flat and repeated ones are removed. Polygons of bodies are
- * wound like their neighbours and outwards. Unused points of surfaces and render meshes, repeated pins and
- * springs, and springs without effect are removed. Derived parts that are stale, before or after this, are
- * built again with their settings. All other faults stay.
+ * normals get unit length. Weights of skins, embedded vertices and blends are divided by their sum; pin
+ * weights are limited to 1. Tetrahedra are oriented positively; flat and repeated ones are removed. Polygons
+ * of bodies are wound like their neighbours and outwards. Unused points of surfaces and render meshes,
+ * repeated pins and springs, and springs without effect are removed. Derived parts that are stale, before or
+ * after this, are built again with their settings. All other faults stay.
  *
  * `asset` may be loaded with sbf_load_options.mendable. SBF_BAD_INPUT, with the first fault in `*error` and
  * no asset, if the structure has other faults. `options`, `result` and `error` may be NULL. Thread safe. */
