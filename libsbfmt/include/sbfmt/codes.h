@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 // clang-format off
-/* Findings, by numbers that never change. */
+/* Codes of findings. Their numbers never change. */
 typedef enum sbf_code {
   SBF_CODE_NONE = 0,
   SBF_CODE_IO_CANNOT_READ = 101, /* The file cannot be read: check the path and its permissions. */
@@ -294,19 +294,19 @@ typedef enum sbf_code {
 } sbf_code;
 // clang-format on
 
-/* What a code stands for. */
+/* Information about a code. */
 typedef struct sbf_code_info {
   const char *name;      /* as in reports */
   sbf_code code;         /* its number */
-  sbf_severity severity; /* how much it weighs */
+  sbf_severity severity; /* its severity */
   sbf_status fault;      /* SBF_BAD_INPUT or SBF_FAILED */
-  const char *text;      /* what it says and what to do */
+  const char *text;      /* its meaning and what to do next */
 } sbf_code_info;
 
-/* What a code stands for; NULL for a number that is none. */
+/* Information about a code; NULL for an unknown number. */
 SBF_API const sbf_code_info *sbf_code_find(int32_t code);
 
-/* All of them, by number. */
+/* All codes, ordered by number; `*count` receives how many. */
 SBF_API const sbf_code_info *sbf_code_table(uint32_t *count);
 
 #ifdef __cplusplus
