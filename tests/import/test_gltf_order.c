@@ -2,6 +2,7 @@
  * from 5.3 on. */
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,6 +63,13 @@ static void assert_same(const struct aiMesh *mesh, const struct aiMesh *file) {
       ck_assert(weight_of(mesh->mBones[b], i) == weight_of(file->mBones[b], i));
 }
 
+static void restore(struct aiScene *scene, const char *path) {
+  gltf g;
+  gltf_open(&g, path);
+  restore_gltf_order(scene, &g);
+  gltf_close(&g);
+}
+
 /* Changed in place, as only the importer hands out a scene. */
 static struct aiScene *read(const char *path) {
   const struct aiScene *scene = aiImportFile(path, 0);
@@ -73,7 +81,7 @@ START_TEST(vertices_get_the_files_order)
 {
   const char *path = harness_source(files[_i]);
   struct aiScene *file = read(path), *scene = read(path);
-  restore_gltf_order(file, path); /* where assimp has renumbered it already */
+  restore(file, path); /* where assimp has renumbered it already */
   bool changed = false;
   for (unsigned m = 0; m < scene->mNumMeshes; m++) {
     renumber(scene->mMeshes[m]);
@@ -81,7 +89,7 @@ START_TEST(vertices_get_the_files_order)
                              scene->mMeshes[m]->mNumVertices * sizeof(struct aiVector3D)) != 0;
   }
   ck_assert(changed);
-  restore_gltf_order(scene, path);
+  restore(scene, path);
   for (unsigned m = 0; m < scene->mNumMeshes; m++) assert_same(scene->mMeshes[m], file->mMeshes[m]);
   aiReleaseImport(scene);
   aiReleaseImport(file);
@@ -92,19 +100,40 @@ START_TEST(a_file_cut_anywhere_changes_nothing)
 {
   size_t size;
   const char *path = harness_source(files[1]), *cut = harness_scratch("cut.glb");
-  char *bytes = harness_read(path, &size);
+  char *content = harness_read(path, &size);
   struct aiScene *file = read(path), *scene = read(path);
-  restore_gltf_order(file, path);
-  restore_gltf_order(scene, path);
+  restore(file, path);
+  restore(scene, path);
   for (size_t kept = 0; kept < size; kept += kept < 4000 ? 37 : size / 20) {
-    ck_assert(harness_write(cut, bytes, kept));
-    restore_gltf_order(scene, cut);
+    ck_assert(harness_write(cut, content, kept));
+    restore(scene, cut);
   }
-  restore_gltf_order(scene, "nothing/there.glb");
+  restore(scene, "nothing/there.glb");
   for (unsigned m = 0; m < scene->mNumMeshes; m++) assert_same(scene->mMeshes[m], file->mMeshes[m]);
   aiReleaseImport(scene);
   aiReleaseImport(file);
-  free(bytes);
+  free(content);
+}
+END_TEST
+
+/* The importer opens a file once: what it read must be enough. */
+START_TEST(an_opened_file_is_not_read_again)
+{
+  size_t size;
+  const char *path = harness_source(files[0]), *copy = harness_scratch("opened.glb");
+  char *content = harness_read(path, &size);
+  struct aiScene *file = read(path), *scene = read(path);
+  restore(file, path);
+  for (unsigned m = 0; m < scene->mNumMeshes; m++) renumber(scene->mMeshes[m]);
+  gltf g;
+  ck_assert(harness_write(copy, content, size) && gltf_open(&g, copy));
+  ck_assert_int_eq(remove(copy), 0);
+  restore_gltf_order(scene, &g);
+  gltf_close(&g);
+  for (unsigned m = 0; m < scene->mNumMeshes; m++) assert_same(scene->mMeshes[m], file->mMeshes[m]);
+  aiReleaseImport(scene);
+  aiReleaseImport(file);
+  free(content);
 }
 END_TEST
 
@@ -113,6 +142,7 @@ int main(void) {
   TCase *c = tcase_create("order");
   tcase_add_loop_test(c, vertices_get_the_files_order, 0, sizeof files / sizeof *files);
   tcase_add_test(c, a_file_cut_anywhere_changes_nothing);
+  tcase_add_test(c, an_opened_file_is_not_read_again);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -4,7 +4,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "gltf_file.h"
 #include "text_forms.h"
 
 enum { DEEPEST = 512 };
@@ -54,26 +53,21 @@ static void walk_scene(search *s, const struct aiNode *root, const json_t *json)
     if (i < json_array_size(tops)) walk_gltf(s, root->mChildren[i], json_array_get(tops, i), 0);
 }
 
-static bool find_in_gltf(const struct aiScene *scene, const char *path, declared_joints *to) {
-  gltf g;
-  search s = {.to = to, .good = true};
-  if (gltf_open(&g, path)) {
-    s.nodes = json_object_get(g.json, "nodes");
-    size_t count = json_array_size(s.nodes), skin, k;
-    bool *is_joint = calloc(count + 1, sizeof *is_joint);
-    json_t *described, *joint;
-    json_array_foreach(json_object_get(g.json, "skins"), skin, described) {
-      json_array_foreach(json_object_get(described, "joints"), k, joint) {
-        size_t at = json_is_integer(joint) ? (size_t)json_integer_value(joint) : SIZE_MAX;
-        if (is_joint && at < count) is_joint[at] = true;
-      }
+static bool find_in_gltf(const struct aiScene *scene, const json_t *json, declared_joints *to) {
+  search s = {.to = to, .nodes = json_object_get(json, "nodes"), .good = true};
+  size_t count = json_array_size(s.nodes), skin, k;
+  bool *is_joint = calloc(count + 1, sizeof *is_joint);
+  json_t *described, *joint;
+  if (!is_joint) return false;
+  json_array_foreach(json_object_get(json, "skins"), skin, described) {
+    json_array_foreach(json_object_get(described, "joints"), k, joint) {
+      size_t at = json_is_integer(joint) ? (size_t)json_integer_value(joint) : SIZE_MAX;
+      if (at < count) is_joint[at] = true;
     }
-    s.is_joint = is_joint;
-    s.good = is_joint != NULL;
-    if (is_joint) walk_scene(&s, scene->mRootNode, g.json);
-    free(is_joint);
   }
-  gltf_close(&g);
+  s.is_joint = is_joint;
+  walk_scene(&s, scene->mRootNode, json);
+  free(is_joint);
   return s.good;
 }
 
@@ -96,10 +90,10 @@ static bool find_in_collada(const struct aiScene *scene, const char *path, decla
   return s.good;
 }
 
-bool find_declared_joints(const struct aiScene *scene, const char *path, declared_joints *to) {
+bool find_declared_joints(const struct aiScene *scene, const char *path, const gltf *g, declared_joints *to) {
   const char *dot = strrchr(path, '.');
   if (scene->mNumMeshes) return true;
-  if (is_gltf_path(path)) return find_in_gltf(scene, path, to);
+  if (g->json) return find_in_gltf(scene, g->json, to);
   return !dot || strcasecmp(dot, ".dae") != 0 || find_in_collada(scene, path, to);
 }
 

@@ -7,14 +7,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "gltf_file.h"
+
 typedef struct declared_joints {
   const struct aiNode **nodes;
   size_t count, capacity;
 } declared_joints;
 
-/* Nodes that the glTF or Collada file `path` declares as joints. None if the scene has a mesh, for other
- * formats, or if the file declares none. False if memory runs out. */
-bool find_declared_joints(const struct aiScene *scene, const char *path, declared_joints *to);
+/* Nodes that the file `path` declares as joints: a glTF, read into `g`, or a Collada file. None if the scene
+ * has a mesh, for other formats, or if the file declares none. False if memory runs out. */
+bool find_declared_joints(const struct aiScene *scene, const char *path, const gltf *g, declared_joints *to);
 
 bool is_declared_joint(const declared_joints *joints, const struct aiNode *node);
 

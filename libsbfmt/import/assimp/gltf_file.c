@@ -48,20 +48,31 @@ static bytes buffer_beside(const gltf *g, const json_t *buffer) {
   return length > 0 && (size_t)length < sizeof path ? read_file(path) : (bytes){NULL, 0};
 }
 
+/* Finds the JSON and the first binary chunk of a GLB; false for a glTF of text. */
+static bool split(const gltf *g, bytes *text, bytes *binary) {
+  size_t offset = 12;
+  if (g->file.size < 12 || gltf_word_at(g->file.at) != GLB_MAGIC) return false;
+  *text = chunk(&g->file, &offset, GLB_JSON);
+  *binary = chunk(&g->file, &offset, GLB_BIN);
+  return true;
+}
+
 bool gltf_open(gltf *g, const char *path) {
   *g = (gltf){.path = path, .file = read_file(path)};
-  bytes text = g->file, binary = {NULL, 0};
-  bool packed = g->file.size >= 12 && gltf_word_at(g->file.at) == GLB_MAGIC;
-  if (packed) {
-    size_t offset = 12;
-    text = chunk(&g->file, &offset, GLB_JSON);
-    binary = chunk(&g->file, &offset, GLB_BIN);
-  }
+  bytes text = g->file, binary;
+  split(g, &text, &binary);
   if (text.size) g->json = json_loadb((const char *)text.at, text.size, JSON_DISABLE_EOF_CHECK, NULL);
+  return g->json != NULL;
+}
+
+bool gltf_load_buffers(gltf *g) {
+  bytes text, binary = {NULL, 0};
+  bool packed = split(g, &text, &binary);
   const json_t *buffers = json_object_get(g->json, "buffers");
   size_t count = json_array_size(buffers);
+  if (g->buffers) return true;
   g->buffers = calloc(count ? count : 1, sizeof *g->buffers);
-  if (!g->json || !g->buffers) return false;
+  if (!g->buffers) return false;
   for (; g->buffer_count < count; g->buffer_count++) {
     const json_t *buffer = json_array_get(buffers, g->buffer_count);
     bool inside = packed && g->buffer_count == 0 && !json_object_get(buffer, "uri");

@@ -15,7 +15,7 @@ typedef struct bytes {
 typedef struct gltf {
   const char *path;
   bytes file;
-  json_t *json;
+  json_t *json;   /* NULL if the file is not a readable glTF */
   bytes *buffers; /* (buffer_count); the first buffer of a GLB points into the file */
   size_t buffer_count;
 } gltf;
@@ -26,8 +26,11 @@ bytes read_file(const char *path);
 /* Whether the name has the extension of a glTF file. */
 bool is_gltf_path(const char *path);
 
-/* False if it cannot be read as glTF; gltf_close is required in any case. Buffers in data URIs stay empty. */
+/* Reads the file, without buffers in other files. False if it cannot be read as glTF; gltf_close is required
+ * in any case. */
 bool gltf_open(gltf *g, const char *path);
+/* Reads the buffers beside the file. Those in data URIs stay empty. False if memory runs out. */
+bool gltf_load_buffers(gltf *g);
 void gltf_close(gltf *g);
 
 /* Required extension of the file that makes assimp read wrong vertices; NULL if none. */

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gltf_file.h"
-
 enum { UNSIGNED_BYTE = 5121, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT = 5126, TRIANGLES = 4 };
 static const uint32_t unused = UINT32_MAX;
 
@@ -150,10 +148,7 @@ static void restore_mesh(const gltf *g, struct aiMesh *mesh) {
   free(source);
 }
 
-void restore_gltf_order(struct aiScene *scene, const char *path) {
-  if (!is_gltf_path(path)) return;
-  gltf g;
-  if (gltf_open(&g, path))
-    for (unsigned i = 0; i < scene->mNumMeshes; i++) restore_mesh(&g, scene->mMeshes[i]);
-  gltf_close(&g);
+void restore_gltf_order(struct aiScene *scene, gltf *g) {
+  if (!g->json || !gltf_load_buffers(g)) return;
+  for (unsigned i = 0; i < scene->mNumMeshes; i++) restore_mesh(g, scene->mMeshes[i]);
 }

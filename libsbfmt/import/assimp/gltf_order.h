@@ -7,10 +7,12 @@
 
 #include <assimp/scene.h>
 
-/* Reorders the vertices of each mesh as in the glTF file `path`; vertices without triangles stay dropped.
+#include "gltf_file.h"
+
+/* Reorders the vertices of each mesh as in the glTF file; vertices without triangles stay dropped.
  * Finds a mesh in the file by its triangles and exact positions, so a mesh in file order does not change.
- * Other formats, and primitives with compressed or sparse numbers or in a data URI, keep the importer's
- * order. */
-void restore_gltf_order(struct aiScene *scene, const char *path);
+ * A file that is not glTF, and primitives with compressed or sparse numbers or in a data URI, keep the
+ * importer's order. */
+void restore_gltf_order(struct aiScene *scene, gltf *g);
 
 #endif

@@ -323,11 +323,8 @@ static int read_scene(const char *path, const struct aiScene **scene, const stru
 }
 
 /* Whether assimp would return wrong vertices; reports it. */
-static bool is_packed(const char *path) {
-  gltf g;
-  if (!is_gltf_path(path)) return false;
-  const char *extension = gltf_open(&g, path) ? gltf_unread_extension(&g) : NULL;
-  gltf_close(&g);
+static bool is_packed(const gltf *g) {
+  const char *extension = gltf_unread_extension(g);
   if (extension)
     fprintf(stderr, "its meshes are packed by %s, which is not read: export them without compression\n",
         extension);
@@ -335,6 +332,7 @@ static bool is_packed(const char *path) {
 }
 
 /* Never freed: freeing a damaged scene could crash. Static, so that leak checkers can reach it. */
+static gltf gltf_read; /* empty for other formats */
 static struct aiPropertyStore *properties;
 static const struct aiScene *scene_read;
 
@@ -349,7 +347,8 @@ int main(int argument_count, char **arguments) {
     fprintf(stderr, "usage: sbfmt-import FILE: a part of sbfmt convert, of no use by itself\n");
     return SBFI_CHILD_BAD_CALL;
   }
-  if (is_packed(arguments[1])) return SBFI_CHILD_REFUSED;
+  if (is_gltf_path(arguments[1]) && gltf_open(&gltf_read, arguments[1]) && is_packed(&gltf_read))
+    return SBFI_CHILD_REFUSED;
   properties = aiCreatePropertyStore();
   aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
   int status = read_scene(arguments[1], &scene_read, properties);
@@ -359,8 +358,8 @@ int main(int argument_count, char **arguments) {
     fprintf(stderr, "%s\n", message && *message ? message : "the file has no content");
     return message && strstr(message, "bad_alloc") ? SBFI_CHILD_NO_MEMORY : SBFI_CHILD_REFUSED;
   }
-  if (renumbers_gltf()) restore_gltf_order((struct aiScene *)(uintptr_t)scene_read, arguments[1]);
-  if (!find_declared_joints(scene_read, arguments[1], &joints)) return SBFI_CHILD_NO_MEMORY;
+  if (renumbers_gltf()) restore_gltf_order((struct aiScene *)(uintptr_t)scene_read, &gltf_read);
+  if (!find_declared_joints(scene_read, arguments[1], &gltf_read, &joints)) return SBFI_CHILD_NO_MEMORY;
   write_scene(scene_read);
   return write_end() == 0 ? SBFI_CHILD_DONE : SBFI_CHILD_CANNOT_WRITE;
 }
