@@ -6,7 +6,6 @@
 
 #include "chart/out_folder.h"
 #include "mesh_quality.h"
-#include "sbfmt/build.h"
 #include "section_budget.h"
 
 /* In the order of sbf_build_interior, and an alias. */
@@ -119,7 +118,8 @@ static void print_springs(const sbf_build_report *r) {
   printf("\n");
 }
 
-static void print_report(const sbf_asset *built, const sbf_build_report *r) {
+void building_print(const sbf_asset *built, const sbf_build_report *r) {
+  mesh_quality quality;
   if (r->sections) printf("cut %u section%s along the bones\n", r->sections, many(r->sections));
   print_preserved(built);
   if (r->bodies || built->soft_bodies.count == 0)
@@ -144,6 +144,8 @@ static void print_report(const sbf_asset *built, const sbf_build_report *r) {
   if (r->levels) printf("levels: %u beside the finest\n", r->levels);
   if (r->render_levels) printf("render levels: %u beside the full meshes\n", r->render_levels);
   print_springs(r);
+  mesh_quality_measure(built, NULL, &quality);
+  mesh_quality_print(&quality);
 }
 
 /* Prints what was chosen within a budget and what was left out. */
@@ -189,25 +191,18 @@ sbf_status building_choose(cli_call *call, sbf_asset *source, double budget_us, 
   return status;
 }
 
-sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error) {
+sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_build_report *made, sbf_diagnostic *error) {
   sbf_build_options options;
-  sbf_build_report made;
   sbf_asset *built = NULL;
   if (!read_options(call, &options)) return SBF_FAILED;
   options.progress = progress;
   options.report = cli_report;
   options.user = call;
-  sbf_status status = sbf_build(*asset, &options, &built, &made, error);
+  sbf_status status = sbf_build(*asset, &options, &built, made, error);
   if (status == SBF_OK) section_budget_state_costs(built);
   cli_print_counted(call);
   cli_progress_end();
   sbf_asset_free(*asset);
   *asset = built;
-  if (status == SBF_OK) {
-    mesh_quality quality;
-    mesh_quality_measure(built, NULL, &quality);
-    print_report(built, &made);
-    mesh_quality_print(&quality);
-  }
   return status;
 }

@@ -3,6 +3,7 @@
 #define BUILDING_H
 
 #include "cli.h"
+#include "sbfmt/build.h"
 #include "sbfmt/io.h"
 
 #define BUILDING_OPTIONS                                                                                     \
@@ -30,8 +31,10 @@ bool building_check(const cli_call *call);
  * both in the section recipes. Does nothing if `budget_us` is 0 or the call's options choose a resolution. */
 sbf_status building_choose(cli_call *call, sbf_asset *source, double budget_us, sbf_diagnostic *error);
 
-/* Runs the build passes on *asset, replaces it by the result and prints what was made. Frees *asset on
- * failure. */
-sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error);
+/* Runs the build passes on *asset and replaces it by the result. Frees *asset on failure. */
+sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_build_report *made, sbf_diagnostic *error);
+
+/* Prints what was made: called after the result was written. */
+void building_print(const sbf_asset *built, const sbf_build_report *made);
 
 #endif

@@ -10,6 +10,7 @@ static int run(cli_call *call) {
   if (!output_name_of_bundle(call, "-o") || !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   sbf_asset *asset;
+  sbf_build_report made;
   sbf_diagnostic error;
   sbf_status status = sbf_load_file(call->inputs[0],
       &(sbf_load_options){.check_crc = true, .report = cli_report, .user = call}, &asset, &error);
@@ -17,12 +18,13 @@ static int run(cli_call *call) {
     sbf_asset_free(asset);
     return SBF_FAILED;
   }
-  if (status == SBF_OK) status = building_run(call, &asset, &error);
+  if (status == SBF_OK) status = building_run(call, &asset, &made, &error);
   if (status != SBF_OK) {
     cli_print_diagnostic(call, &error);
     return (int)status;
   }
   int saved = saving_run(call, call->inputs[0], out, asset, NULL);
+  if (saved == SBF_OK) building_print(asset, &made);
   sbf_asset_free(asset);
   return saved;
 }

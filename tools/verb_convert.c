@@ -95,7 +95,9 @@ static bool read_budget(const cli_call *call, const char *input, double *budget_
 }
 
 static int convert(cli_call *call, const char *input, const char *out, sbf_convert_options *options) {
+  bool builds = !cli_switch(call, "--no-build");
   sbf_asset *asset, *misfit = NULL;
+  sbf_build_report made;
   sbf_diagnostic error;
   sbf_convert_summary summary = {.source_count = 0};
   options->summary = &summary;
@@ -111,10 +113,11 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
     status = building_choose(call, asset, budget_us, &error);
     if (status != SBF_OK) sbf_asset_free(asset);
   }
-  if (status == SBF_OK && cli_switch(call, "--no-build")) state_figures(asset);
-  if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
+  if (status == SBF_OK && !builds) state_figures(asset);
+  if (status == SBF_OK && builds) status = building_run(call, &asset, &made, &error);
   if (status == SBF_OK) {
     int saved = saving_run(call, input, out, asset, NULL);
+    if (saved == SBF_OK && builds) building_print(asset, &made);
     if (saved == SBF_OK && call->messages) status = write_report(call, input, out, options, asset, &error);
     sbf_asset_free(asset);
     if (saved != SBF_OK) return saved;

@@ -176,6 +176,7 @@ static int fix(const cli_call *call, const char *from, const char *to) {
   json_t *messages = call->json ? json_array() : NULL, *files = call->json ? json_array() : NULL;
   m.left.status = repair(from, to, &m, &error);
   bool written = m.left.status == SBF_OK;
+  if (!written) findings_free(&m.done); /* repairs of a file that is not there */
   json_t *done = repaired_json(call, &m, from);
   totals t = {.status = SBF_OK};
   report_progress(call, &m.left, strict, messages, files);

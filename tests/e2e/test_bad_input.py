@@ -164,6 +164,16 @@ class Calls(ProgramTest):
                 self.assertEqual(result.status, FAILED)
                 self.assertIn("error: standard output could not be written", result.err)
 
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full here")
+    def test_what_could_not_be_written_is_not_called_built(self):
+        mesh = write_bytes(self.path("cube.obj"), CUBE)
+        for arguments in (("convert", mesh, "--elements", "100"), ("build", self.file)):
+            with self.subTest(arguments):
+                result = call(*arguments, "-o", "/dev/full")
+                self.assertEqual(result.status, FAILED)
+                self.assertIn("[IO_CANNOT_WRITE]", result.err)
+                self.assertEqual(result.out, "")
+
     def test_calls_that_are_wrong(self):
         for arguments in ((), ("frobnicate",), ("info",), ("info", self.file, self.file), ("info", "--no-such"),
                           ("info", self.file, "--format", "xml"), ("pack", self.file), ("pack", self.file, "-o"),
