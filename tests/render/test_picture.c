@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <png.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -85,6 +86,36 @@ START_TEST(full_device)
 }
 END_TEST
 
+/* libpng's own line, before ours, says nothing that a user could act on. */
+START_TEST(libpng_prints_nothing)
+{
+  enum { WIDE = 256, HIGH = 64 }; /* larger than a buffer of stdio */
+  static uint8_t large[WIDE * HIGH * 3];
+  const char *path = harness_scratch("said");
+  sbf_diagnostic error = {0};
+  size_t size;
+  if (access("/dev/full", W_OK) != 0) {
+    harness_skip("/dev/full cannot be written");
+    return;
+  }
+  uint32_t noise = 1; /* does not compress */
+  for (size_t i = 0; i < sizeof large; i++) large[i] = (uint8_t)((noise = noise * 1664525 + 1013904223) >> 24);
+  fflush(stderr);
+  int kept = dup(STDERR_FILENO);
+  FILE *said = fopen(path, "wb");
+  ck_assert(kept >= 0 && said && dup2(fileno(said), STDERR_FILENO) >= 0);
+  sbf_status status = draw_picture_write_png("/dev/full", large, WIDE, HIGH, &error);
+  fflush(stderr);
+  ck_assert(dup2(kept, STDERR_FILENO) >= 0);
+  close(kept);
+  fclose(said);
+  ck_assert_int_eq(status, SBF_FAILED);
+  char *text = harness_read(path, &size);
+  ck_assert_msg(size == 0, "%s", text);
+  free(text);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("picture");
   TCase *tests = tcase_create("picture");
@@ -93,6 +124,7 @@ int main(void) {
   tcase_add_test(tests, folder_that_is_not_there);
   tcase_add_test(tests, path_is_a_folder);
   tcase_add_test(tests, full_device);
+  tcase_add_test(tests, libpng_prints_nothing);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -10,10 +10,21 @@
 #include "render/fault.h"
 #include "render/output_file.h"
 
+/* libpng would print a line of its own before ours. */
+static void jump(png_structp png, png_const_charp message) {
+  (void)message;
+  png_longjmp(png, 1);
+}
+
+static void ignore(png_structp png, png_const_charp message) {
+  (void)png;
+  (void)message;
+}
+
 /* libpng reports errors by longjmp, which keeps only volatile state: so this function contains only the
  * call that jumps, and owns nothing but libpng's structures. */
 static bool encode(FILE *file, const uint8_t *rgb, uint32_t width, uint32_t height) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, jump, ignore);
   png_infop info = png ? png_create_info_struct(png) : NULL;
   if (!info || setjmp(png_jmpbuf(png))) {
     png_destroy_write_struct(png ? &png : NULL, info ? &info : NULL);
