@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static void write_bytes(void *user, const void *bytes, size_t size) {
   fwrite(bytes, 1, size, user); /* errors are checked at the end */
@@ -65,8 +66,12 @@ bool recording_finish(recording *r, const cli_call *call, sbr_world *world) {
   bool good = !ferror(r->file);
   if (fclose(r->file) != 0) good = false;
   r->file = NULL;
-  if (!good) cli_wrong(call, "the recording %s cannot be written: %s", r->path, strerror(errno));
-  return good;
+  if (good) return true;
+  struct stat facts;
+  int why = errno;
+  if (stat(r->path, &facts) == 0 && S_ISREG(facts.st_mode)) remove(r->path); /* half a recording */
+  cli_wrong(call, "the recording %s cannot be written: %s", r->path, strerror(why));
+  return false;
 }
 
 void recording_close(recording *r) {

@@ -1,8 +1,11 @@
 """`sbfmt run --record` and `--replay`: what was recorded plays again to the bit, or says that it does not."""
 
 import os
+import resource
+import signal
+import subprocess
 
-from sbfmt_program import ProgramTest, example, main, read_bytes, write_bytes
+from sbfmt_program import PROGRAM, ProgramTest, example, main, read_bytes, write_bytes
 
 SCRIPT = b"""0 drive 0.3 0.1
 0.2 drive 0.1 -0.4
@@ -67,6 +70,17 @@ class Replay(ProgramTest):
         self.assertIn("leave --drive", self.fails(2, "run", self.file, "--replay", self.tape, "--drive", "1,0"))
         nowhere = os.path.join(self.path("no"), "x.sbrec")
         self.assertIn("cannot be written", self.fails(2, "run", self.file, "--record", nowhere))
+
+    def test_half_a_recording_does_not_stay(self):
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
+
+        result = subprocess.run([PROGRAM, "run", self.file, "--seconds", "1", "--drive", "0.3,0.1", "--record", self.tape],
+                                preexec_fn=limit, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(b"cannot be written", result.stderr)
+        self.assert_empty_folder()
 
 
 if __name__ == "__main__":
