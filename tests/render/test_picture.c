@@ -99,7 +99,8 @@ START_TEST(libpng_prints_nothing)
     return;
   }
   uint32_t noise = 1; /* does not compress */
-  for (size_t i = 0; i < sizeof large; i++) large[i] = (uint8_t)((noise = noise * 1664525 + 1013904223) >> 24);
+  for (size_t i = 0; i < sizeof large; i++)
+    large[i] = (uint8_t)((noise = noise * 1664525 + 1013904223) >> 24);
   fflush(stderr);
   int kept = dup(STDERR_FILENO);
   FILE *said = fopen(path, "wb");
