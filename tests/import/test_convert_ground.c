@@ -4,9 +4,9 @@
 #include "conversions.h"
 
 /* A biped whose soles are at `sole`; with boots and a coat for it to wear. */
-static void make(sbfi_scene *scene, double sole, bool legs) {
+static void make_at(sbfi_scene *scene, double x, double sole, double z, bool legs) {
   scene_begin(scene);
-  int32_t hips = scene_node(scene, "hips", SBF_NONE, true, 0, sole + 1, 0);
+  int32_t hips = scene_node(scene, "hips", SBF_NONE, true, x, sole + 1, z);
   int32_t coat = scene_node(scene, "coat", hips, false, 0, 0.5, 0);
   scene_box(scene, coat, 0.25, 0, 0, 0, false);
   for (int side = -1; legs && side <= 1; side += 2) {
@@ -17,6 +17,10 @@ static void make(sbfi_scene *scene, double sole, bool legs) {
         false);
   }
   scene_end(scene);
+}
+
+static void make(sbfi_scene *scene, double sole, bool legs) {
+  make_at(scene, 0, sole, 0, legs);
 }
 
 START_TEST(walkers_are_moved_onto_the_ground)
@@ -100,6 +104,70 @@ START_TEST(clips_go_along)
 }
 END_TEST
 
+/* Legs are found about the rig's own middle. A small offset is no reason to move vertices. */
+START_TEST(who_stands_beside_the_origin_is_moved_there)
+{
+  static const float times[2] = {0, 1};
+  /* x, z, and z of the hips then: the middle of all bones is 1/32 m before them */
+  static const double places[][3] = {
+      {2, 0, 0}, {-0.5, 0, 0}, {2, -3, -0.03125}, {0, 3, -0.03125}, {40, 0.125, 0.125}};
+  for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+    double x = places[i][0], z = places[i][1], moved = places[i][2];
+    const sbf_vec3 path[2] = {{(float)x, 1, (float)z}, {(float)x, 1, (float)z + 0.5f}};
+    sbfi_scene scene;
+    converted c;
+    make_at(&scene, x, 0, z, true);
+    *scene_clip(&scene, "walk", 1, 1) =
+        (sbfi_scene_channel){.node = 0, .position_count = 2, .position_times = times, .positions = path};
+    converted_scene(&c, &scene, &scene, NULL);
+    const sbf_asset *a = c.asset;
+    check_near(a->bones.at[0].head, 0, 1, moved, 1e-5);
+    check_near(body_named(a, "coat")->surface.positions.at[0], -0.25, 1.25, moved - 0.25, 1e-5);
+    ck_assert_uint_eq(a->gaits.count, 1);
+    ck_assert_uint_eq(a->gaits.at[0].legs.count, 2);
+    for (int l = 0; l < 2; l++) ck_assert_float_eq_tol(fabsf(a->gaits.at[0].legs.at[l].home.x), 0.25f, 1e-5f);
+    const float *first = a->clips.at[0].tracks.at[0].values.at;
+    ck_assert_float_eq_tol(first[0], 0, 1e-5f);
+    ck_assert_float_eq_tol(first[2], (float)moved, 1e-5f);
+    ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_GROUND), 1);
+    converted_free(&c);
+    sbfi_scene_free(&scene);
+  }
+  sbfi_scene scene;
+  converted c;
+  make_at(&scene, 0.015625, 0, 0.125, true);
+  converted_scene(&c, &scene, &scene, NULL);
+  check_near(c.asset->bones.at[0].head, 0.015625, 1, 0.125, 0);
+  ck_assert_uint_eq(c.asset->gaits.at[0].legs.count, 2);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_GROUND), 0);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
+/* Bones on one side of their root, and what shall have no gait. */
+START_TEST(what_has_no_middle_stays)
+{
+  sbf_convert_options options = {.no_gait = true};
+  sbfi_scene scene;
+  converted c;
+  scene_begin(&scene);
+  int32_t pole = scene_node(&scene, "pole", SBF_NONE, true, 2, 0, 0);
+  scene_box(&scene, scene_node(&scene, "cloth", pole, false, 0.5, 1, 0), 0.25, 0, 0, 0, false);
+  scene_end(&scene);
+  converted_scene(&c, &scene, &scene, NULL);
+  ck_assert_float_eq(c.asset->bones.at[0].head.x, 2);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+  make_at(&scene, 2, 0, 0, true);
+  converted_scene(&c, &scene, &scene, &options);
+  ck_assert_float_eq(c.asset->bones.at[0].head.x, 2);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_GROUND), 0);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("convert_ground");
   TCase *tests = tcase_create("all");
@@ -107,6 +175,8 @@ int main(void) {
   tcase_add_test(tests, who_stands_stays);
   tcase_add_test(tests, what_does_not_walk_stays);
   tcase_add_test(tests, clips_go_along);
+  tcase_add_test(tests, who_stands_beside_the_origin_is_moved_there);
+  tcase_add_test(tests, what_has_no_middle_stays);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

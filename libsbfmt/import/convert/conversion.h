@@ -46,7 +46,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c);
 sbf_status sbfi_evaluate_gait(sbfi_conversion *c);
 /* After meshes: rotates a character that would walk sideways or backwards so that it faces +Z. */
 sbf_status sbfi_face_ahead(sbfi_conversion *c);
-/* After the gait: moves walking characters onto y = 0. */
+/* After the gait: moves characters to the origin and onto y = 0. */
 sbf_status sbfi_stand_on_ground(sbfi_conversion *c);
 /* After meshes and ground: creates a rigid body for each bone with sections, and joints between them. */
 sbf_status sbfi_convert_joints(sbfi_conversion *c);

@@ -5,7 +5,7 @@
 #include "import/gait/gait_draft.h"
 #include "model/bone_ends.h"
 
-/* fraction of the height; points this close to x = 0 are in the middle */
+/* fraction of the height; points this close to the plane of symmetry are in the middle */
 static const double SIDE_FRACTION = 0.02;
 static const double FLAT_FRACTION = 0.006; /* fraction of the greatest extent, used for flat characters */
 
@@ -134,7 +134,7 @@ bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch) {
   extents e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, false, NULL};
   d->shapes = sbfi_arena_allocate(scratch, count, sizeof *d->shapes);
   e.sum_x = sbfi_arena_allocate(scratch, count, sizeof *e.sum_x);
-  if (!d->shapes || !e.sum_x) return false;
+  if (!d->shapes || !e.sum_x || !sbfi_rig_center(d->asset, scratch, &d->center)) return false;
   for (uint32_t i = 0; i < count; i++)
     d->shapes[i] =
         (sbfi_bone_shape){.low = INFINITY, .low_below = INFINITY, .min_x = INFINITY, .max_x = -INFINITY};

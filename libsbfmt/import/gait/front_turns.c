@@ -11,8 +11,8 @@ static const double TAIL_END = 0.25, NARROW = 0.7;
 
 /* Above 0 if bones named left are on the left and heads in front of tails, seen after `turns` quarter
  * turns. */
-static double ask_names(const sbf_asset *asset, uint32_t turns, double length) {
-  const sbfi_gait_draft seen = {.turns = turns};
+static double ask_names(const sbf_asset *asset, uint32_t turns, sbf_vec3 center, double length) {
+  const sbfi_gait_draft seen = {.turns = turns, .center = center};
   double votes = 0, ends[2] = {0, 0};
   uint32_t counts[2] = {0, 0};
   for (uint32_t i = 0; i < asset->bones.count; i++) {
@@ -64,7 +64,7 @@ bool sbfi_front_turns(
   *turns = 0;
   if (kind == SBFI_LOCOMOTION_NONE) return true;
   if (!sbfi_gather_points(asset, sides, scratch, &points)) return false;
-  double names = ask_names(asset, sides, points.high[2] - points.low[2]);
+  double names = ask_names(asset, sides, points.center, points.high[2] - points.low[2]);
   bool backwards = names < 0;
   if (names == 0 && (kind == SBFI_LOCOMOTION_SWIM || kind == SBFI_LOCOMOTION_SLITHER)) {
     double chain = ask_chain(asset, sides);

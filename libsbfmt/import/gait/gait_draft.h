@@ -31,6 +31,7 @@ typedef struct sbfi_gait_draft {
   sbf_asset *asset;
   uint32_t turns; /* number of quarter turns about +Y of the character; the draft undoes them so that it faces
                      +Z */
+  sbf_vec3 center;         /* middle of the rig, at which the draft has x = 0 and z = 0 */
   sbfi_bone_shape *shapes; /* (asset->bones.count) */
   bool has_mesh;
   double ground, height, low_z, high_z; /* m, of all measured points, or of the bones' heads */
@@ -43,8 +44,13 @@ typedef struct sbfi_gait_draft {
   bool row; /* the spine carries pairs of legs one behind the other, like a caterpillar's */
 } sbfi_gait_draft;
 
-/* Steps in order: extents and sides; legs and girdles; a spine that is a row of girdles; head and tail.
- * Each returns false if memory runs out. */
+/* Middle of the largest skeleton, which stands where its file has it: the coordinates x and z of the planes
+ * that mirror most of its bones, 0 where x = 0 or z = 0 does as well or none does. False if memory runs
+ * out. */
+bool sbfi_rig_center(const sbf_asset *asset, sbfi_arena *scratch, sbf_vec3 *center);
+
+/* Steps in order: center, extents and sides; legs and girdles; a spine that is a row of girdles; head and
+ * tail. Each returns false if memory runs out. */
 bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch);
 bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch);
 bool sbfi_draft_row(sbfi_gait_draft *d);
@@ -52,8 +58,8 @@ bool sbfi_draft_ends(sbfi_gait_draft *d);
 /* After the legs: the middle bone with "head" in its name that carries no leg, or SBF_NONE. */
 int32_t sbfi_draft_named_head(const sbfi_gait_draft *d);
 
-/* Number of quarter turns of the character from +Z. It is 0 if its legs form pairs across x = 0 or not at
- * all. The names of its legs choose between the two directions along the axis, otherwise its feet.
+/* Number of quarter turns of the character from +Z. It is 0 if its legs form pairs across its middle in x or
+ * not at all. The names of its legs choose between the two directions along the axis, otherwise its feet.
  * Backwards (2) is chosen only if names and feet agree, or names and the head of a quadruped. */
 bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *turns);
 
@@ -61,8 +67,9 @@ static inline const sbf_bone *sbfi_draft_bone(const sbfi_gait_draft *d, int32_t 
   return &d->asset->bones.at[bone];
 }
 
-/* Converts a point to the draft's orientation. */
+/* Converts a point to the draft's orientation, about the rig's middle. */
 static inline sbf_vec3 sbfi_draft_seen(const sbfi_gait_draft *d, sbf_vec3 p) {
+  p = (sbf_vec3){p.x - d->center.x, p.y, p.z - d->center.z};
   switch (d->turns) {
   case 1:
     return (sbf_vec3){0 - p.z, p.y, p.x};

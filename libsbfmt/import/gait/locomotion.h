@@ -88,6 +88,7 @@ typedef struct sbfi_rig_points {
   sbf_vec3 *at;  /* (count) in the draft's orientation */
   int32_t *bone; /* (count) bone with the greatest weight at each */
   uint32_t count;
+  sbf_vec3 center;        /* of the rig, at which they have x = 0 and z = 0 */
   double low[3], high[3]; /* their extent */
   bool are_heads;         /* the points are heads of bones without meshes */
 } sbfi_rig_points;
@@ -101,8 +102,8 @@ bool sbfi_gather_points(const sbf_asset *asset, uint32_t turns, sbfi_arena *scra
 bool sbfi_front_turns(
     const sbf_asset *asset, uint32_t sides, sbfi_locomotion_kind kind, sbfi_arena *scratch, uint32_t *turns);
 
-/* 0: left and right are on the two sides of x = 0; 1: of z = 0, so it faces along X. Bones with sides in
- * their names decide, otherwise the better symmetry of the skin. `clear` is true if the other is ruled
+/* 0: left and right are on the two sides of the middle in x; 1: in z, so it faces along X. Bones with sides
+ * in their names decide, otherwise the better symmetry of the skin. `clear` is true if the other is ruled
  * out. */
 uint32_t sbfi_mirror_turns(const sbf_asset *asset, const sbfi_rig_points *points, bool *clear);
 

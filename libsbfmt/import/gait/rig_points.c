@@ -44,7 +44,7 @@ static void measure(sbfi_rig_points *points) {
 
 bool sbfi_gather_points(
     const sbf_asset *asset, uint32_t turns, sbfi_arena *scratch, sbfi_rig_points *points) {
-  const sbfi_gait_draft seen = {.turns = turns};
+  sbfi_gait_draft seen = {.turns = turns};
   size_t max = asset->bones.count;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
     max += asset->soft_bodies.at[b].surface.positions.count;
@@ -53,7 +53,8 @@ bool sbfi_gather_points(
   points->count = 0;
   points->at = sbfi_arena_allocate(scratch, max, sizeof *points->at);
   points->bone = sbfi_arena_allocate(scratch, max, sizeof *points->bone);
-  if (!points->at || !points->bone) return false;
+  if (!points->at || !points->bone || !sbfi_rig_center(asset, scratch, &seen.center)) return false;
+  points->center = seen.center;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
     for (uint32_t i = 0; body->bone != SBF_NONE && i < body->surface.positions.count; i++)
@@ -71,7 +72,8 @@ bool sbfi_gather_points(
 }
 
 /* Mean distance from mirrored points to their nearest points, as a fraction of the size. The mirror plane
- * is at 0 or in the middle of the extent, whichever fits better. `axis` 0: across x, 2: across z. */
+ * is at the rig's middle or in the middle of the extent, whichever fits better. `axis` 0: across x, 2: across
+ * z. */
 static double mirror_error(const sbfi_rig_points *points, int axis) {
   double size = 0, best = INFINITY;
   for (int k = 0; k < 3; k++) size = fmax(size, points->high[k] - points->low[k]);
@@ -96,13 +98,14 @@ static double mirror_error(const sbfi_rig_points *points, int axis) {
 }
 
 /* Scores named sides along x and z: difference of left and right bones as a fraction of the maximum. */
-static uint32_t ask_sides(const sbf_asset *asset, double votes[2]) {
+static uint32_t ask_sides(const sbf_asset *asset, sbf_vec3 center, double votes[2]) {
   uint32_t named = 0;
   double max[2] = {0, 0};
   votes[0] = votes[1] = 0;
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     int side = sbfi_name_side(asset->bones.at[i].name);
-    const double head[2] = {(double)asset->bones.at[i].head.x, (double)asset->bones.at[i].head.z};
+    const sbf_vec3 at = asset->bones.at[i].head;
+    const double head[2] = {(double)at.x - (double)center.x, (double)at.z - (double)center.z};
     if (!side) continue;
     named++;
     for (int k = 0; k < 2; k++) {
@@ -118,7 +121,7 @@ uint32_t sbfi_mirror_turns(const sbf_asset *asset, const sbfi_rig_points *points
   static const double noise = 1e-3; /* fraction of the size; below it both planes are good */
   double votes[2];
   *clear = true;
-  if (ask_sides(asset, votes) >= MIN_NAMED && fabs(votes[0] - votes[1]) > CLEAR_VOTES)
+  if (ask_sides(asset, points->center, votes) >= MIN_NAMED && fabs(votes[0] - votes[1]) > CLEAR_VOTES)
     return votes[1] > votes[0];
   if (points->are_heads || points->count < 3) return 0; /* heads of bones often lie in one plane */
   *clear = false;

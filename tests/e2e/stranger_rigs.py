@@ -1,0 +1,105 @@
+"""Small rigged characters as strangers send them: people of tubes, as many as one likes, anywhere and in any pose and unit."""
+
+import math
+
+from bundle_file import apply, inverse, matrix_of, product
+from skinned_glb import SkinnedGlb
+
+# Bone, parent, head in metres; a person who stands on y = 0, looks along +Z and holds the arms out.
+PERSON = [
+    ("hips", None, (0, 0.95, 0)), ("spine", "hips", (0, 1.10, 0)), ("chest", "spine", (0, 1.28, 0)),
+    ("head", "chest", (0, 1.55, 0)),
+    *[(f"{name}.{side}", f"{above}.{side}" if above[0] != "!" else above[1:], (x * sign, y, z))
+      for side, sign in (("L", 1), ("R", -1))
+      for name, above, (x, y, z) in (("thigh", "!hips", (0.10, 0.90, 0)), ("shin", "thigh", (0.10, 0.50, 0.02)),
+                                     ("foot", "shin", (0.10, 0.09, -0.02)), ("arm", "!chest", (0.18, 1.42, 0)),
+                                     ("forearm", "arm", (0.45, 1.42, -0.01)), ("hand", "forearm", (0.70, 1.42, 0)))],
+]
+TIPS = {"head": (0, 1.78, 0), "hand": (0.85, 1.42, 0), "foot": (0.10, 0.03, 0.15)}
+RADII = {"hips": 0.13, "spine": 0.12, "chest": 0.14, "head": 0.10, "thigh": 0.07, "shin": 0.055, "foot": 0.045,
+         "arm": 0.05, "forearm": 0.045, "hand": 0.04}
+
+
+def heads_and_tips():
+    heads = {name: at for name, _, at in PERSON}
+    tips = {}
+    for name, _, at in PERSON:
+        stem, dot, side = name.partition(".")
+        if stem in TIPS:
+            x, y, z = TIPS[stem]
+            tips[name] = (-x if side == "R" else x, y, z)
+        else:
+            following = {"hips": "spine", "spine": "chest", "chest": "head", "thigh": "shin", "shin": "foot",
+                         "arm": "forearm", "forearm": "hand"}[stem]
+            tips[name] = heads[following + dot + side]
+    return heads, tips
+
+
+def tube_along(start, end, radius, sides=8, rings=4):
+    """A closed tube between two points."""
+    along = [b - a for a, b in zip(start, end)]
+    length = math.sqrt(sum(x * x for x in along))
+    along = [x / length for x in along]
+    aside = (0, 0, 1) if abs(along[2]) < 0.9 else (1, 0, 0)
+    u = [aside[(k + 1) % 3] * along[(k + 2) % 3] - aside[(k + 2) % 3] * along[(k + 1) % 3] for k in range(3)]
+    size = math.sqrt(sum(x * x for x in u))
+    u = [x / size for x in u]
+    v = [along[(k + 1) % 3] * u[(k + 2) % 3] - along[(k + 2) % 3] * u[(k + 1) % 3] for k in range(3)]
+    points = [tuple(start[k] + along[k] * length * r / (rings - 1) +
+                    radius * (u[k] * math.cos(2 * math.pi * s / sides) + v[k] * math.sin(2 * math.pi * s / sides))
+                    for k in range(3)) for r in range(rings) for s in range(sides)]
+    triangles = []
+    for r in range(rings - 1):
+        for s in range(sides):
+            a, b = r * sides + s, r * sides + (s + 1) % sides
+            triangles += [(a, b, b + sides), (a, b + sides, a + sides)]
+    last = (rings - 1) * sides
+    triangles += [(0, s + 1, s) for s in range(1, sides - 1)]
+    triangles += [(last, last + s, last + s + 1) for s in range(1, sides - 1)]
+    return points, triangles
+
+
+def person_shape():
+    """Points, triangles, and the bone of each point."""
+    heads, tips = heads_and_tips()
+    points, triangles, bones = [], [], []
+    for number, (name, _, _) in enumerate(PERSON):
+        more, faces = tube_along(heads[name], tips[name], RADII[name.partition(".")[0]])
+        triangles += [tuple(i + len(points) for i in face) for face in faces]
+        points += more
+        bones += [number] * len(more)
+    return points, triangles, bones
+
+
+def add_person(glb, name="person", placed=None, prefix="", armature=None):
+    """Adds a person with a skin of its own. `placed`: 3x4 matrix that takes it from where it stands to where the file
+    has it; only turns, moves and equal scales keep its bones."""
+    placed = placed or matrix_of()
+    heads = {bone: apply(placed, at) for bone, _, at in PERSON}
+    joints, numbers = [], {}
+    for bone, parent, _ in PERSON:
+        above = heads[parent] if parent else (0, 0, 0)
+        numbers[bone] = glb.node(prefix + bone, numbers[parent] if parent else armature,
+                                 translation=[a - b for a, b in zip(heads[bone], above)])
+        joints.append(numbers[bone])
+    points, triangles, bones = person_shape()
+    points = [apply(placed, p) for p in points]
+    mesh = glb.mesh(points, triangles, [(b, 0, 0, 0) for b in bones], [(1, 0, 0, 0)] * len(bones))
+    glb.json["meshes"][mesh]["name"] = name
+    skin = glb.skin(joints, [inverse(matrix_of(heads[bone])) for bone, _, _ in PERSON])
+    glb.json["skins"][skin]["name"] = name
+    glb.node(name, mesh=mesh, skin=skin)
+    return joints
+
+
+def turned(axis, degrees, at=(0, 0, 0)):
+    half = math.radians(degrees) / 2
+    return matrix_of(at, [math.sin(half) * (a == axis) for a in "xyz"] + [math.cos(half)])
+
+
+def people(path, *placed, **more):
+    """A file with a person at each of these matrices."""
+    glb = SkinnedGlb()
+    for i, matrix in enumerate(placed):
+        add_person(glb, f"person{i + 1}", matrix, f"p{i + 1}_" if len(placed) > 1 else "", **more)
+    return glb.write(path)
