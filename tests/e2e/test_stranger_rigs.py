@@ -26,6 +26,26 @@ class StrangerRigs(ProgramTest):
         self.assertIn("[IMPORT_GROUND]", self.converted(turned("y", 90, (2, 0, 3))))
         self.assertAlmostEqual(self.walk()["distance"], expected["distance"], delta=0.05)
 
+    def test_a_second_character_is_named(self):
+        for placed in ([(0, 0, 0), (2, 0, 0)], [(-1, 0, 0), (1, 0, 0)], [(1, 0, 1), (-4, 0, 0)]):
+            said = self.converted(*map(matrix_of, placed))
+            self.assertRegex(said, r"'p1_hips' alone: that of 'p2_hips' .* a file of its own \[RIG_OTHER_SKELETON\]")
+            self.assertEqual(set(self.walk()["steps_taken"]), {"p1_foot.L", "p1_foot.R"})
+        said = self.converted(*(matrix_of((x, 0, 0)) for x in (0, 2, 4)), options=("--verbose",))
+        self.assertEqual(said.count("[RIG_OTHER_SKELETON]"), 2)
+        self.assertNotIn("RIG_OTHER_SKELETON", self.converted(matrix_of()))
+
+    def test_who_lies_is_told_how_to_stand(self):
+        said = self.converted(turned("x", 90, (0, 0.2, 0)))
+        self.assertRegex(said, r"legs point along -Z .*: stand it up with --up z \[RIG_LIES\]")
+        said = self.converted(turned("x", 90, (0, 0.2, 0)), options=("--up", "z"))
+        self.assertNotIn("[RIG_LIES]", said)
+        self.assertGreater(self.walk()["distance"], 0.3)
+        self.assertIn("--up y [RIG_LIES]", self.converted(matrix_of(), options=("--up", "z")))
+        self.assertRegex(self.converted(turned("x", -90, (0, 0.2, 0))), r"along \+Z .* in its program .*\[RIG_LIES\]")
+        self.assertRegex(self.converted(turned("z", 180, (0, 1.8, 0))), r"along \+Y .* on its head.*\[RIG_LIES\]")
+        self.assertNotIn("[RIG_LIES]", self.converted(turned("y", 180)))
+
 
 if __name__ == "__main__":
     main()

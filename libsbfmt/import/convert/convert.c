@@ -133,12 +133,13 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
         "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
       sbfi_rig_input, sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials,
-      sbfi_convert_meshes, sbfi_measure_leaf_bones, sbfi_evaluate_gait, sbfi_face_ahead, sbfi_propose_gait,
-      sbfi_stand_on_ground, sbfi_convert_joints, sbfi_convert_attachments, sbfi_propose_limits,
-      sbfi_convert_clips, sbfi_propose_rest_pose, sbfi_propose_softness};
+      sbfi_convert_meshes, sbfi_measure_leaf_bones, sbfi_evaluate_gait, sbfi_report_lying, sbfi_face_ahead,
+      sbfi_propose_gait, sbfi_report_other_skeletons, sbfi_stand_on_ground, sbfi_convert_joints,
+      sbfi_convert_attachments, sbfi_propose_limits, sbfi_convert_clips, sbfi_propose_rest_pose,
+      sbfi_propose_softness};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
-    bool of_gait =
-        passes[i] == sbfi_evaluate_gait || passes[i] == sbfi_face_ahead || passes[i] == sbfi_propose_gait;
+    bool of_gait = passes[i] == sbfi_evaluate_gait || passes[i] == sbfi_report_lying ||
+                   passes[i] == sbfi_face_ahead || passes[i] == sbfi_propose_gait;
     if (of_gait && options->no_gait) continue;
     if (passes[i] == sbfi_face_ahead && options->forward) continue;
     sbf_status status = passes[i](c);

@@ -116,7 +116,9 @@ int32_t sbfi_assembly_find(sbfi_assembly *a, sbfi_span name, bool *good) {
   int32_t node = a->node_of_name[found];
   if (a->ties[found]) {
     if (!sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_NAME_AMBIGUOUS, 0,
-            "%u nodes are named \"%s\" and a skin or a clip refers to one: the first is taken",
+            "%u nodes are named \"%s\" and a skin or a clip refers to one: the first is taken; give each "
+            "node a "
+            "name of its own and export again",
             a->ties[found] + 1, a->nodes[node].name))
       *good = false;
     a->ties[found] = 0; /* one warning is enough */

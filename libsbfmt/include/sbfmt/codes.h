@@ -241,6 +241,8 @@ typedef enum sbf_code {
   SBF_CODE_GAIT_KIND = 794, /* How it moves was judged by its shape, names and clips: --gait states it. */
   SBF_CODE_GAIT_KIND_UNSURE = 795, /* Two ways of moving are about as likely: state one with --gait. */
   SBF_CODE_REST_POSE_PROPOSED = 796, /* The pose that it stands and moves in is proposed: confirm or change the gait's rest_pose. */
+  SBF_CODE_RIG_OTHER_SKELETON = 797, /* A file holds several characters, and the gait moves one: export each into a file of its own. */
+  SBF_CODE_RIG_LIES = 798, /* The legs of the rig do not point down: it lies or stands on its head: state --up, or turn it in its program. */
   SBF_CODE_PACKED_MAGIC = 801, /* The file has no packed header: it was damaged in transfer, or is another kind. */
   SBF_CODE_PACKED_TRUNCATED = 802, /* The file ends before its last chunk: it was truncated. */
   SBF_CODE_PACKED_TABLE = 803, /* The header or the table of contents contradicts itself. */
@@ -264,7 +266,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_IGNORED = 932, /* The file has content that is skipped. */
   SBF_CODE_IMPORT_POINTS_LEFT_OUT = 933, /* Vertices that no polygon uses belong to no object and are left out. */
   SBF_CODE_IMPORT_MESH_INVENTED = 934, /* The importer invented a mesh for a file that has none: it is left out. */
-  SBF_CODE_IMPORT_NAME_AMBIGUOUS = 935, /* Several nodes have the name that a skin or a clip refers to. */
+  SBF_CODE_IMPORT_NAME_AMBIGUOUS = 935, /* Several nodes have the name that a skin or a clip refers to: give each node a name of its own. */
   SBF_CODE_IMPORT_AXES = 936, /* The file's axes do not form a frame: +Y up is assumed. */
   SBF_CODE_IMPORT_KEYS = 937, /* Inconsistent keys of an animation are left out. */
   SBF_CODE_IMPORT_IMAGE = 938, /* An image cannot be imported. */
@@ -279,7 +281,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_NO_BONES = 952, /* The rig's file has no skeleton. */
   SBF_CODE_IMPORT_PARTIAL_UVS = 953, /* A set of texture coordinates does not cover the whole mesh and was dropped. */
   SBF_CODE_IMPORT_INSIDE_OUT = 954, /* All polygons of a closed surface faced inwards: they were reversed. */
-  SBF_CODE_IMPORT_GROUND = 955, /* The character was not on y = 0 and was moved there. */
+  SBF_CODE_IMPORT_GROUND = 955, /* The character was not on y = 0, or not at the origin, and was moved there. */
   SBF_CODE_IMPORT_PIN_UNKNOWN = 956, /* A pin or an attachment names a group, an object or a bone that the input does not have: sbfmt info lists them. */
   SBF_CODE_MATERIAL_GUESSED = 957, /* The material of bodies is not stated: sections on bones get soft tissue, other bodies the default, or a modulus that bears their weight. */
   SBF_CODE_IMPORT_FACING = 958, /* The character did not face +Z and was rotated. */
