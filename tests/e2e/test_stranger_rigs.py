@@ -46,6 +46,14 @@ class StrangerRigs(ProgramTest):
         self.assertRegex(self.converted(turned("z", 180, (0, 1.8, 0))), r"along \+Y .* on its head.*\[RIG_LIES\]")
         self.assertNotIn("[RIG_LIES]", self.converted(turned("y", 180)))
 
+    def test_a_tiny_one_has_steps_that_a_tick_resolves(self):
+        self.converted(matrix_of(scale=(1 / 1800,) * 3))
+        codes = {m["code"] for m in self.json_of("validate", self.path("out.sbf"))["messages"]}
+        self.assertEqual(codes, {"UNIT_LOOKS_WRONG"})
+        report = self.json_of("run", self.path("out.sbf"), "--seconds", "5", "--drive", "0.0002,0")
+        self.assertGreater(report["distance"], 0.0002)
+        self.assertGreater(min(report["steps_taken"].values()), 0)
+
 
 if __name__ == "__main__":
     main()

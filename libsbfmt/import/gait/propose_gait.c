@@ -6,6 +6,8 @@
 #include "import/gait/gait_draft.h"
 #include "import/gait/gait_parts.h"
 
+enum { SHORTEST_STEP_TICKS = 2 }; /* control ticks; a foot that moves for less jumps */
+
 /* Pole beyond the knee, away from the line between hip and ankle: the leg keeps its bending direction at
  * rest. A straight leg bends forward. */
 static sbf_vec3 pole_of(const sbfi_gait_draft *d, const sbfi_leg_draft *leg) {
@@ -92,7 +94,8 @@ static bool write_legs(sbfi_gait_draft *d, sbf_gait *gait) {
   return true;
 }
 
-/* Lengths scale with the shortest leg, and times with its square root, as for a pendulum. */
+/* Lengths scale with the shortest leg, and times with its square root, as for a pendulum, down to what the
+ * control tick can resolve. */
 static void set_steps(const sbfi_gait_draft *d, sbf_gait *gait) {
   double play = INFINITY, reach = INFINITY;
   for (uint32_t l = 0; l < d->leg_count; l++) {
@@ -102,7 +105,8 @@ static void set_steps(const sbfi_gait_draft *d, sbf_gait *gait) {
   gait->step_trigger = (float)fmax(0.08 * reach, fmin(0.22 * reach, 0.45 * play));
   gait->step_height = (float)(0.12 * reach);
   gait->walk_speed = (float)(0.4 * reach);
-  gait->step_duration = (float)(0.42 * sqrt(reach));
+  gait->step_duration =
+      (float)fmax(0.42 * sqrt(reach), SHORTEST_STEP_TICKS * (double)d->asset->environment.control_tick);
 }
 
 static bool write_head(sbfi_gait_draft *d, sbf_gait *gait) {
