@@ -156,6 +156,26 @@ static void loosen_rigid_parts(session *s) {
         s->world, s->character, -1, s->settings.driven ? SBR_RIGID_DRIVEN : SBR_RIGID_PASSIVE);
 }
 
+static bool script_drives_up(const script *s) {
+  for (uint32_t i = 0; i < s->count; i++)
+    if (s->lines[i].kind == SCRIPT_DRIVE && s->lines[i].numbers[3] != 0) return true;
+  return false;
+}
+
+/* Warns of commands that the character ignores. */
+static void warn_of_drive(const session *s, const cli_call *call) {
+  const sbf_gait *gait = s->asset->gaits.count ? &s->asset->gaits.at[0] : NULL;
+  bool option = s->settings.drive[2] != 0, rises = option || script_drives_up(&s->script);
+  if (!rises || s->recording.bytes ||
+      (gait && (gait->kind == SBF_GAIT_KIND_SWIM || gait->kind == SBF_GAIT_KIND_FLY)))
+    return;
+  fprintf(stderr,
+      "sbfmt %s: warning: the vertical speed of %s is ignored: only what swims or flies has one, and this "
+      "character has %s%s\n",
+      call->verb->name, option ? "--drive" : "--script", gait ? "the gait " : "no gait",
+      gait ? sbf_gait_kind_name(gait->kind) : "");
+}
+
 /* Applies the initial options, unless a recording does. */
 static void begin(session *s) {
   const session_settings *set = &s->settings;
@@ -217,6 +237,7 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
     sbr_model_report_unsupported(s->model, report, call);
     sbr_model_report_scheme_bias(s->model, report, call);
     if ((*status = recording_open(&s->recording, call, s->world)) == SBF_OK) {
+      warn_of_drive(s, call);
       begin(s);
       return true;
     }

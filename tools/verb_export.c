@@ -24,6 +24,15 @@ static bool ends_with(const char *path, const char *ending) {
   return point && strcmp(point, ending) == 0;
 }
 
+/* First given option of a motion; NULL if there is none. */
+static const char *given_of_motion(const cli_call *call) {
+  for (int i = 0; call->verb->options[i].name; i++) {
+    const char *name = call->verb->options[i].name;
+    if (call->values[i] && strcmp(name, "-o") != 0 && strcmp(name, "--render-level") != 0) return name;
+  }
+  return NULL;
+}
+
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o");
   char folder[4096];
@@ -38,9 +47,12 @@ static int run(cli_call *call) {
   if (!output_name_check(call, "-o", endings) || !cli_integer(call, "--render-level", 0, 1000, &render_level))
     return SBF_FAILED;
   bool as_cache = motion_cache_named(out), moves = motion_asked(call) || as_cache;
-  if (moves && !as_cache && !ends_with(out, ".glb"))
-    return cli_wrong(call,
-        "only .glb, .pc2 and .mdd hold a motion: leave --seconds, --script and --replay out for %s", out);
+  const char *of_motion = given_of_motion(call);
+  if (of_motion && !as_cache && !ends_with(out, ".glb"))
+    return cli_wrong(call, "only .glb, .pc2 and .mdd hold a motion: leave %s out for %s", of_motion, out);
+  if (of_motion && !moves)
+    return cli_wrong(
+        call, "%s is for a motion, which %s holds with --seconds, --script or --replay only", of_motion, out);
   int status = moves ? motion_bake(call, &motion) : SBF_OK;
   if (status != SBF_OK) return status;
   sbf_asset *asset;

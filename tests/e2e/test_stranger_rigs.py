@@ -54,6 +54,21 @@ class StrangerRigs(ProgramTest):
         self.assertGreater(report["distance"], 0.0002)
         self.assertGreater(min(report["steps_taken"].values()), 0)
 
+    def test_a_vertical_speed_of_a_walker_is_told(self):
+        self.converted(matrix_of())
+        for verb in ("run", "render"):
+            out = ("-o", self.path("out.png"), "--size", "64x48") if verb == "render" else ()
+            options = (self.path("out.sbf"), "--seconds", "0.1", *out)
+            self.assertRegex(self.good(verb, *options, "--drive", "0.2,0,0.5").err, "warning: the vertical speed of --drive is ignored.*walk")
+            self.assertNotIn("vertical", self.good(verb, *options, "--drive", "0.2,0,0").err)
+
+    def test_an_export_without_a_motion_refuses_its_options(self):
+        self.converted(matrix_of())
+        said = self.fails(2, "export", self.path("out.sbf"), "--drive", "1,0", "-o", self.path("out.glb"))
+        self.assertIn("--drive is for a motion", said)
+        self.assertIn("leave --fps out", self.fails(2, "export", self.path("out.sbf"), "--fps", "25", "-o", self.path("out.obj")))
+        self.good("export", self.path("out.sbf"), "--drive", "1,0", "--seconds", "0.1", "-o", self.path("out.glb"))
+
 
 if __name__ == "__main__":
     main()
