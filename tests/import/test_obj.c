@@ -139,10 +139,41 @@ START_TEST(a_missing_library_is_a_warning)
 {
   sbfi_scene scene;
   read_text(&scene, "mtllib not there.mtl\nusemtl x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  ck_assert_uint_eq(scene.warning_count, 2); /* "not" and "there.mtl" */
+  ck_assert_uint_eq(scene.warning_count, 1);
   ck_assert_int_eq(scene.warnings[0].code, SBF_CODE_IMPORT_MATERIALS_MISSING);
+  ck_assert_ptr_nonnull(strstr(scene.warnings[0].message, "\"not there.mtl\""));
+  ck_assert_ptr_nonnull(strstr(scene.warnings[0].message, "put it beside"));
   ck_assert_uint_eq(scene.material_count, 1);
   sbfi_scene_free(&scene);
+}
+END_TEST
+
+/* Names with blanks, in quotes, and several on a line; what is missing is named whole. */
+START_TEST(names_of_libraries_may_have_blanks)
+{
+  static const struct {
+    const char *line, *missing;
+  } cases[] = {{"mtllib \"two words.mtl\"", NULL}, {"mtllib   two words.mtl \t", NULL},
+      {"mtllib blue.mtl two words.mtl", NULL}, {"mtllib two words.mtl blue.mtl", NULL},
+      {"mtllib \"two words.mtl\" blue.mtl", NULL}, {"mtllib not here.mtl two words.mtl", "\"not here.mtl\""},
+      {"mtllib two words.mtl not here.mtl", "\"not here.mtl\""}};
+  const char red[] = "newmtl red\nKd 1 0 0\n", blue[] = "newmtl blue\nKd 0 0 1\n";
+  ck_assert(harness_write(harness_scratch("two words.mtl"), red, sizeof red - 1));
+  ck_assert(harness_write(harness_scratch("blue.mtl"), blue, sizeof blue - 1));
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char obj[160];
+    int length =
+        snprintf(obj, sizeof obj, "%s\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n", cases[i].line);
+    ck_assert(harness_write(harness_scratch("blanks.obj"), obj, (size_t)length));
+    sbfi_scene scene;
+    sbf_diagnostic error = {0};
+    ck_assert_int_eq(sbfi_scene_read(&scene, harness_scratch("blanks.obj"), NULL, &error), SBF_OK);
+    ck_assert_msg(scene.materials[0].base_color[0] > 0.9f && scene.materials[0].base_color[2] < 0.1f, "%s",
+        cases[i].line);
+    ck_assert_uint_eq(scene.warning_count, cases[i].missing != NULL);
+    if (cases[i].missing) ck_assert_ptr_nonnull(strstr(scene.warnings[0].message, cases[i].missing));
+    sbfi_scene_free(&scene);
+  }
 }
 END_TEST
 
@@ -336,6 +367,7 @@ static Suite *obj_suite(void) {
   tcase_add_test(tests, each_mesh_has_its_own_normals_and_uvs);
   tcase_add_test(tests, materials_come_from_the_library_beside_the_file);
   tcase_add_test(tests, a_missing_library_is_a_warning);
+  tcase_add_test(tests, names_of_libraries_may_have_blanks);
   tcase_add_test(tests, nothing_to_see_is_an_error);
   tcase_add_test(tests, every_allocation_may_fail);
   tcase_add_test(tests, a_limit_on_memory_is_kept);

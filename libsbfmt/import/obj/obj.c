@@ -9,6 +9,7 @@
 #include "import/quote.h"
 
 enum { LIBRARY_LIMIT_BYTES = 64 << 20 };
+enum { NAME_WORDS = 8 }; /* maximum number of words in the name of a library */
 
 typedef struct materials {
   sbfi_scene *scene;
@@ -41,24 +42,48 @@ static bool read_library(materials *m, sbfi_span name, bool *found) {
          sbfi_mtl_read(m->scene, bytes, size, &m->text->materials, m->at, m->described, &m->images);
 }
 
-/* A line may name several libraries, or one with spaces in its name: the whole line is tried first. */
-static bool read_libraries_of_line(materials *m, sbfi_span line) {
-  bool found;
-  if (!read_library(m, line, &found)) return false;
-  if (found) return true;
-  sbfi_span rest = line, name;
-  while (sbfi_span_next_word(&rest, &name)) {
-    if (name.length == line.length)
-      found = false;
-    else if (!read_library(m, name, &found))
-      return false;
-    m->library_missing = m->library_missing || !found;
-    if (!found &&
-        !sbfi_scene_warn(m->scene, SBF_CODE_IMPORT_MATERIALS_MISSING, 0,
-            "the material library \"%s\" cannot be read: its materials are grey", sbfi_quote_of(name).text))
-      return false;
+static sbfi_span without_quotes(sbfi_span name) {
+  bool quoted = name.length > 2 && *name.at == '"' && name.at[name.length - 1] == '"';
+  return quoted ? (sbfi_span){name.at + 1, name.length - 2} : name;
+}
+
+/* Reads the library named by most of the words at the start of `rest`, and removes them. */
+static bool read_longest(materials *m, sbfi_span *rest, bool *found) {
+  size_t ends[NAME_WORDS], words = 0;
+  sbfi_span after = sbfi_span_trim(*rest), name = after, word;
+  for (*found = false; words < NAME_WORDS && sbfi_span_next_word(&after, &word); words++)
+    ends[words] = (size_t)(word.at + word.length - name.at);
+  while (words > 0 && !*found) {
+    name.length = ends[--words];
+    if (!read_library(m, without_quotes(name), found)) return false;
+    if (*found) rest->length -= (size_t)(name.at + name.length - rest->at), rest->at = name.at + name.length;
   }
   return true;
+}
+
+static bool warn_of_library(materials *m, sbfi_span name) {
+  m->library_missing = true;
+  return sbfi_scene_warn(m->scene, SBF_CODE_IMPORT_MATERIALS_MISSING, 0,
+      "the material library \"%s\" cannot be read: its materials are grey; put it beside the OBJ file",
+      sbfi_quote_of(name).text);
+}
+
+/* A line may name several libraries, and each name may have blanks: the longest readable one is taken. Words
+ * between them are one missing library. */
+static bool read_libraries_of_line(materials *m, sbfi_span line) {
+  sbfi_span rest = line, missing = {NULL, 0}, word;
+  for (bool found;;) {
+    if (!read_longest(m, &rest, &found)) return false;
+    bool over = !found && !sbfi_span_next_word(&rest, &word);
+    if (!found && !over) {
+      if (!missing.length) missing.at = word.at;
+      missing.length = (size_t)(word.at + word.length - missing.at);
+      continue;
+    }
+    if (missing.length && !warn_of_library(m, without_quotes(missing))) return false;
+    missing.length = 0;
+    if (over) return true;
+  }
 }
 
 static bool read_materials(materials *m) {
