@@ -2,7 +2,8 @@
 
 from bundle_file import matrix_of
 from sbfmt_program import SOURCE_PARTS, ProgramTest, main
-from stranger_rigs import people, turned
+from skinned_glb import SkinnedGlb
+from stranger_rigs import add_person, people, turned
 
 
 class StrangerRigs(ProgramTest):
@@ -45,6 +46,14 @@ class StrangerRigs(ProgramTest):
         self.assertRegex(self.converted(turned("x", -90, (0, 0.2, 0))), r"along \+Z .* in its program .*\[RIG_LIES\]")
         self.assertRegex(self.converted(turned("z", 180, (0, 1.8, 0))), r"along \+Y .* on its head.*\[RIG_LIES\]")
         self.assertNotIn("[RIG_LIES]", self.converted(turned("y", 180)))
+
+    def test_equal_names_of_nodes_are_told_with_a_remedy(self):
+        glb = SkinnedGlb()
+        for i in range(2):
+            add_person(glb, f"person{i}", matrix_of((2 * i, 0, 0)))
+        glb.write(self.path("in.glb"))
+        said = self.good("convert", self.path("in.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf")).err
+        self.assertRegex(said, r'2 nodes are named "hips" .*give each node a name of its own .*\[IMPORT_NAME_AMBIGUOUS\]')
 
     def test_a_tiny_one_has_steps_that_a_tick_resolves(self):
         self.converted(matrix_of(scale=(1 / 1800,) * 3))
