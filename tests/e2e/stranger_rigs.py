@@ -71,6 +71,42 @@ def person_shape():
     return points, triangles, bones
 
 
+def write_person_obj(path, scale):
+    points, triangles, _ = person_shape()
+    with open(path, "w", encoding="ascii") as stream:
+        stream.writelines(f"v {x * scale:.5f} {y * scale:.5f} {z * scale:.5f}\n" for x, y, z in points)
+        stream.writelines("f " + " ".join(str(i + 1) for i in t) + "\n" for t in triangles)
+    return path
+
+
+def write_person_bvh(path, scale):
+    """Motion capture of the person, standing still for two frames."""
+    heads, tips = heads_and_tips()
+    parents = {name: parent for name, parent, _ in PERSON}
+
+    def offset(a, b):
+        return " ".join(f"{(a[k] - b[k]) * scale:.4f}" for k in range(3))
+
+    def lines_of(bone):
+        above = heads[parents[bone]] if parents[bone] else (0, 0, 0)
+        channels = "Zrotation Xrotation Yrotation"
+        yield ("JOINT " if parents[bone] else "ROOT ") + bone
+        yield "{"
+        yield "OFFSET " + offset(heads[bone], above)
+        yield "CHANNELS " + ("3 " if parents[bone] else "6 Xposition Yposition Zposition ") + channels
+        children = [name for name, parent, _ in PERSON if parent == bone]
+        for child in children:
+            yield from lines_of(child)
+        if not children:
+            yield from ("End Site", "{", "OFFSET " + offset(tips[bone], heads[bone]), "}")
+        yield "}"
+
+    frame = offset(heads["hips"], (0, 0, 0)) + " 0" * (3 * len(PERSON))
+    with open(path, "w", encoding="ascii") as stream:
+        stream.write("\n".join(["HIERARCHY", *lines_of("hips"), "MOTION", "Frames: 2", "Frame Time: 0.0333", frame, frame, ""]))
+    return path
+
+
 def add_person(glb, name="person", placed=None, prefix="", armature=None):
     """Adds a person with a skin of its own. `placed`: 3x4 matrix that takes it from where it stands to where the file
     has it; only turns, moves and equal scales keep its bones."""

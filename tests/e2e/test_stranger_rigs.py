@@ -1,9 +1,11 @@
 """Characters that strangers send: beside the origin, several in a file, lying, tiny. Each walks, or a finding says what to do."""
 
+import re
+
 from bundle_file import matrix_of
 from sbfmt_program import SOURCE_PARTS, ProgramTest, main
 from skinned_glb import SkinnedGlb
-from stranger_rigs import add_person, people, turned
+from stranger_rigs import add_person, people, turned, write_person_bvh, write_person_obj
 
 
 class StrangerRigs(ProgramTest):
@@ -46,6 +48,24 @@ class StrangerRigs(ProgramTest):
         self.assertRegex(self.converted(turned("x", -90, (0, 0.2, 0))), r"along \+Z .* in its program .*\[RIG_LIES\]")
         self.assertRegex(self.converted(turned("z", 180, (0, 1.8, 0))), r"along \+Y .* on its head.*\[RIG_LIES\]")
         self.assertNotIn("[RIG_LIES]", self.converted(turned("y", 180)))
+
+    def test_the_unit_of_a_mesh_on_motion_capture_is_the_mesh_s(self):
+        for mesh, bones, unit in ((1 / 0.0254, 100, "0.0254"), (100, 1 / 0.0254, "0.01"), (1000, 100, "0.001"),
+                                  (1 / 0.3048, 100, "0.3048")):
+            with self.subTest(unit):
+                files = (write_person_obj(self.path("in.obj"), mesh), "--rig", write_person_bvh(self.path("in.bvh"), bones))
+                said = self.good("convert", *files, *SOURCE_PARTS, "-o", self.path("out.sbf")).err
+                found = re.search(r"it measures (\S+) of its own units, the bones of \S*in.bvh (\S+) of theirs, .* "
+                                  r"--unit (\S+), the input's, makes it (\S+) m.*\[UNIT_LOOKS_WRONG\]", said)
+                self.assertTrue(found, said)
+                self.assertEqual(found.group(3), unit)
+                self.assertAlmostEqual(float(found.group(1)), 1.79 * mesh, delta=0.02 * mesh)
+                self.assertAlmostEqual(float(found.group(2)), 1.46 * bones, delta=0.02 * bones)
+                self.assertAlmostEqual(float(found.group(4)), 1.79, delta=0.02)
+                said = self.good("convert", *files, "--unit", unit, *SOURCE_PARTS, "-o", self.path("out.sbf")).err
+                self.assertNotIn("UNIT_LOOKS_WRONG", said)
+                low, high = (self.json_of("info", self.path("out.sbf"))["bounds"][k][1] for k in ("min", "max"))
+                self.assertAlmostEqual(high - low, 1.79, delta=0.02)
 
     def test_equal_names_of_nodes_are_told_with_a_remedy(self):
         glb = SkinnedGlb()

@@ -21,7 +21,6 @@
 #include "import/paper/dialect2012.h"
 #include "import/rigging/rigging.h"
 #include "import/scene/bind_pose.h"
-#include "mechanics/plausible_size.h"
 #include "model/options.h"
 
 /* Matrix from file axes and unit to asset space. Options override the file. */
@@ -148,46 +147,6 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
   return SBF_OK;
 }
 
-static double extent_of_bones(const sbf_bone_list *bones) {
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0;
-  for (uint32_t i = 0; i < bones->count; i++) {
-    const double head[3] = {bones->at[i].head.x, bones->at[i].head.y, bones->at[i].head.z};
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], head[k]);
-      high[k] = fmax(high[k], head[k]);
-      extent = fmax(extent, high[k] - low[k]);
-    }
-  }
-  return extent;
-}
-
-/* Checks the size of a skeleton without meshes. Motion capture files use many units and contain people. */
-static void check_bones_size(sbfi_conversion *c) {
-  static const double tallest = 3, usual = 1.75; /* m */
-  double size = extent_of_bones(&c->asset->bones);
-  if (c->scene->mesh_count > 0 || c->scene->unit_known || !(size > tallest)) return;
-  sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
-      "the bones measure %.4g m with a unit of %.4g m, as is assumed: if they are a person's, --unit %.3g "
-      "makes them %.4g m; --unit %.3g says that it is right",
-      size, c->scene->unit_m, c->scene->unit_m * usual / size, usual, c->scene->unit_m);
-}
-
-/* Warns about an implausible size, because files often have a wrong unit. A unit given by the user is
- * trusted. */
-static void check_size(sbfi_conversion *c) {
-  double unit_m = c->scene->unit_m, size = sbfi_asset_extent(c->asset), scale = sbfi_plausible_scale(size);
-  if (c->options->unit_m > 0) return;
-  if (scale == 1) {
-    check_bones_size(c);
-    return;
-  }
-  sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
-      "everything together measures %.4g m with a unit of %.4g m, as %s: --unit %.3g makes it %.4g m, --unit "
-      "%.3g says that it is right",
-      size, unit_m, c->scene->unit_known ? "the form or the file says" : "is assumed", unit_m * scale,
-      size * scale, unit_m);
-}
-
 /* Reads a scene in its bind pose, which becomes the asset's rest pose. */
 static sbf_status read_scene(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
@@ -210,6 +169,7 @@ static sbf_status convert_readings(
   const sbfi_scene *scene = from->scene, *rig = from->rig;
   sbfi_conversion c = {.scene = scene,
       .rig = rig,
+      .rig_file = rig != scene ? rig : NULL,
       .options = options,
       .reporter = {options->report, options->user, 0, 0},
       .error = error};
@@ -231,7 +191,7 @@ static sbf_status convert_readings(
              : from->paper ? run_paper_passes(&c, from->paper)
                            : run_passes(&c, options);
     if (status == SBF_OK && !from->paper) {
-      check_size(&c);
+      sbfi_check_size(&c);
       if (!options->keep_modulus) sbfi_guess_moduli(&c);
     }
   }

@@ -1,0 +1,68 @@
+/* Warns about implausible sizes, because files often have a wrong unit or state none. */
+#include <math.h>
+
+#include "import/convert/conversion.h"
+#include "mechanics/plausible_size.h"
+
+/* m; heights of people, whom files of motion capture contain */
+static const double TALLEST = 3, USUAL = 1.75;
+
+static double extent_of_bones(const sbf_bone_list *bones) {
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0;
+  for (uint32_t i = 0; i < bones->count; i++) {
+    const double head[3] = {bones->at[i].head.x, bones->at[i].head.y, bones->at[i].head.z};
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], head[k]);
+      high[k] = fmax(high[k], head[k]);
+      extent = fmax(extent, high[k] - low[k]);
+    }
+  }
+  return extent;
+}
+
+/* Bones without a mesh, which use many units. */
+static void check_bones(sbfi_conversion *c) {
+  double size = extent_of_bones(&c->asset->bones);
+  if (c->scene->unit_known || !(size > TALLEST)) return;
+  sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
+      "the bones measure %.4g m with a unit of %.4g m, as is assumed: if they are a person's, --unit %.3g "
+      "makes them %.4g m; --unit %.3g says that it is right",
+      size, c->scene->unit_m, c->scene->unit_m * USUAL / size, USUAL, c->scene->unit_m);
+}
+
+/* Unit in use, m, with which so many of them are nearest to a person's height. */
+static double unit_of_person(double units) {
+  static const double in_use[] = {1, 0.3048, 0.1, 0.0254, 0.01, 0.001};
+  double best = 1;
+  for (size_t i = 0; i < sizeof in_use / sizeof *in_use; i++)
+    if (fabs(log(in_use[i] * units / USUAL)) < fabs(log(best * units / USUAL))) best = in_use[i];
+  return best;
+}
+
+/* A mesh on the bones of a file of motion capture, neither of which states a unit: the bones were scaled to
+ * the mesh, so the unit of the mesh alone matters. */
+static void check_person(sbfi_conversion *c, double size) {
+  double of_rig = cbrt(fabs(sbfi_matrix_determinant(&c->rig_to_asset))), unit_m = c->scene->unit_m;
+  double unit = unit_of_person(size / unit_m), bones = extent_of_bones(&c->asset->bones) / of_rig;
+  sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
+      "it measures %.4g of its own units, the bones of %s %.4g of theirs, and neither file states a unit: if "
+      "they are a person's, --unit %.4g, the input's, makes it %.4g m; --unit %.3g says that it is right",
+      size / unit_m, c->rig_file->file, bones, unit, unit * size / unit_m, unit_m);
+}
+
+void sbfi_check_size(sbfi_conversion *c) {
+  double unit_m = c->scene->unit_m, size = sbfi_asset_extent(c->asset), scale = sbfi_plausible_scale(size);
+  bool bare_rig = c->rig_file && !c->rig_file->unit_known && c->rig_file->mesh_count == 0;
+  if (c->options->unit_m > 0) return; /* the user is trusted */
+  if (scale == 1 && c->scene->mesh_count == 0) {
+    check_bones(c);
+  } else if (bare_rig && !c->scene->unit_known && size > TALLEST) {
+    check_person(c, size);
+  } else if (scale != 1) {
+    sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
+        "everything together measures %.4g m with a unit of %.4g m, as %s: --unit %.3g makes it %.4g m, "
+        "--unit %.3g says that it is right",
+        size, unit_m, c->scene->unit_known ? "the form or the file says" : "is assumed", unit_m * scale,
+        size * scale, unit_m);
+  }
+}
