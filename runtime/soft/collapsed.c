@@ -35,18 +35,20 @@ static const float PRESSED_FRACTION = 0.01f;
 /* Stiffness relative to rest from which on tetrahedra are checked. */
 static const float STIFFENED = 2;
 
-/* For a body of tetrahedra, uses their volume: a bent surface with few vertices encloses less than its
- * lattice. That volume is computed only if the minimum J allows a collapse. */
-static bool is_empty(const sbri_character *c, const sbri_island *island, const sbri_body *body, float min) {
+/* Whether the body has less than a fraction of its volume. For a body of tetrahedra, uses their volume: a
+ * bent surface with few vertices encloses less than its lattice. That volume is computed only if the minimum
+ * J allows it. */
+static bool is_below(
+    const sbri_character *c, const sbri_island *island, const sbri_body *body, float min, double fraction) {
   if (body->elements.tetrahedron_count && !island->tetrahedra.flow)
-    return (double)min < COLLAPSED_FRACTION && sbri_lattice_fraction(c, body) < COLLAPSED_FRACTION;
+    return (double)min <= fraction && sbri_lattice_fraction(c, body) < fraction;
   return body->surface.rest_volume_m3 > 0 &&
-         sbri_surface_volume(c, body, sbri_positions(c)) < COLLAPSED_FRACTION * body->surface.rest_volume_m3;
+         sbri_surface_volume(c, body, sbri_positions(c)) < fraction * body->surface.rest_volume_m3;
 }
 
-static bool is_any_empty(const sbri_character *c, const sbri_island *island, float min) {
+static bool is_any_below(const sbri_character *c, const sbri_island *island, float min, double fraction) {
   for (uint32_t b = 0; b < island->body_count; b++)
-    if (is_empty(c, island, &c->model->bodies[island->bodies[b]], min)) return true;
+    if (is_below(c, island, &c->model->bodies[island->bodies[b]], min, fraction)) return true;
   return false;
 }
 
@@ -257,8 +259,9 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
   const sbri_island_state *state = &sbri_island_states(c)[index];
   bool unstable = state->unstable;
   if (is_squeezed(c, island) || is_pressed_by_pins(c, island) || sbri_island_is_loaded(c, index))
-    return (sbri_shape){.unstable = unstable};
-  if (!(state->min_ratio > 0) || is_any_empty(c, island, state->min_ratio))
+    return (sbri_shape){.unstable = unstable,
+        .inside_out = !island->scheme->forceless && is_any_below(c, island, state->min_ratio, 0)};
+  if (!(state->min_ratio > 0) || is_any_below(c, island, state->min_ratio, COLLAPSED_FRACTION))
     return (sbri_shape){.collapsed = true, .heaped = true, .unstable = true};
   if (!is_checked(island, state)) return (sbri_shape){.collapsed = false};
   elastic elements = elastic_of(c, island, positions);

@@ -228,7 +228,8 @@ bool sbri_island_recover(
   bool is_collapsed =
       state->collapsed_ticks >= (shape.unstable && shape.is_reported ? DAMPED_TICKS : COLLAPSED_TICKS);
   bool jumped = is_crushed_by_jump(&state->recovery, &shape);
-  if (!is_collapsed && !jumped && !(shape.is_reported && shape.heaped && state->unstable >= UNSTABLE_TICKS))
+  if (!is_collapsed && !jumped && !shape.inside_out &&
+      !(shape.is_reported && shape.heaped && state->unstable >= UNSTABLE_TICKS))
     return false;
   if (lost) *lost = sbri_island_momentum(c, index);
   reset(world, c, index, true, lost != NULL);

@@ -107,6 +107,7 @@ typedef struct sbri_shape {
   float excess_j;   /* elastic energy above the rest shape, J; 0: not measured */
   bool is_reported; /* all loads are known, so they do not explain the strain */
   bool crushed;     /* some element is crushed in a body with known loads */
+  bool inside_out;  /* loads explain the strain, but have turned a whole body inside out */
 } sbri_shape;
 sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32_t island);
 
