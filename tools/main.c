@@ -81,6 +81,10 @@ static bool parse(cli_call *call, int count, char **arguments) {
   for (int i = 0; i < count; i++) {
     const char *argument = arguments[i], *value;
     bool is_option = !options_over && argument[0] == '-' && argument[1];
+    if (strcmp(argument, "-") == 0) {
+      cli_wrong(call, "standard input is not read: give the name of a file, not '-'");
+      return false;
+    }
     if (!is_option) {
       call->inputs[call->input_count++] = argument;
       continue;
@@ -106,7 +110,12 @@ static bool parse(cli_call *call, int count, char **arguments) {
       cli_wrong(call, "%s needs a value: %s", argument, verb->options[index].argument);
       return false;
     }
-    call->values[index] = value ? value : arguments[++i];
+    if (!value) value = arguments[++i];
+    if (call->values[index] && strcmp(verb->options[index].name, "-o") == 0) {
+      cli_wrong(call, "-o is given twice, as '%s' and '%s': one call writes one", call->values[index], value);
+      return false;
+    }
+    call->values[index] = value;
     call->given[call->given_count++] = (struct cli_given){index, call->values[index]};
   }
   if (call->input_count < verb->min_inputs ||

@@ -14,7 +14,12 @@ bool output_name_check(const cli_call *call, const char *option, const char *con
   struct stat facts;
   char known[160] = "";
   size_t at = 0;
-  if (!path || (stat(path, &facts) == 0 && !S_ISREG(facts.st_mode))) return true;
+  bool exists = path && stat(path, &facts) == 0;
+  if (exists && S_ISDIR(facts.st_mode)) {
+    cli_wrong(call, "%s %s: that is a folder; name a file in it, as out%s", option, path, endings[0]);
+    return false;
+  }
+  if (!path || (exists && !S_ISREG(facts.st_mode))) return true;
   for (int i = 0; endings[i]; i++) {
     if (ends_with(path, endings[i])) return true;
     if (at < sizeof known)

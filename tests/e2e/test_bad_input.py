@@ -174,6 +174,21 @@ class Calls(ProgramTest):
                 self.assertIn("[IO_CANNOT_WRITE]", result.err)
                 self.assertEqual(result.out, "")
 
+    def test_a_folder_for_the_output_is_told_before_the_work(self):
+        mesh = write_bytes(self.path("cube.obj"), CUBE)
+        for arguments in (("convert", mesh), ("build", self.file), ("pack", self.file), ("export", self.file)):
+            with self.subTest(arguments):
+                result = call(*arguments, "-o", self.folder)
+                self.assertEqual(result.status, FAILED)
+                self.assertRegex(result.err, r"\Asbfmt \w+: error: -o .*: that is a folder; name a file in it, as out\.\w+\n\Z")
+        self.assert_empty_folder(but=["cube.obj"])
+
+    def test_inputs_and_outputs_that_cannot_be_meant(self):
+        self.assertIn("standard input is not read", self.fails(FAILED, "info", "-"))
+        said = self.fails(FAILED, "unpack", self.file, "-o", self.path("a.sbf"), "-o", self.path("b.sbf"))
+        self.assertIn("-o is given twice", said)
+        self.assert_empty_folder()
+
     def test_calls_that_are_wrong(self):
         for arguments in ((), ("frobnicate",), ("info",), ("info", self.file, self.file), ("info", "--no-such"),
                           ("info", self.file, "--format", "xml"), ("pack", self.file), ("pack", self.file, "-o"),
