@@ -64,20 +64,30 @@ static uint32_t begin_inside(sbfi_body_paths *p, const sbfi_bone_segment *bone) 
   return count;
 }
 
-static uint32_t begin_nearest(sbfi_body_paths *p, const sbfi_bone_segment *bone) {
-  uint32_t nearest = 0;
+/* A start that waits until the buckets reach its distance. */
+typedef struct late_start {
+  uint32_t cell;
+  float distance;
+  bool is_waiting;
+} late_start;
+
+static late_start find_nearest(const sbfi_body_paths *p, const sbfi_bone_segment *bone) {
+  late_start nearest = {0, 0, true};
   double min = INFINITY;
   for (uint32_t cell = 0; cell < p->grid->cell_count; cell++) {
     double distance = distance_in_cells(p->grid, bone, cell);
-    if (distance < min) min = distance, nearest = cell;
+    if (distance < min) min = distance, nearest.cell = cell;
   }
-  return improve(p, nearest, (float)fmin(min, 1e6));
+  nearest.distance = (float)fmin(min, 1e6);
+  return nearest;
 }
 
-/* Starts at the cells of all segments; if the first has none, at the nearest. Returns their number. */
-static uint32_t begin(sbfi_body_paths *p, const sbfi_bone_segment *segments, uint32_t segment_count) {
+/* Starts at the cells of all segments; if the first has none, later at the nearest. Returns the number of
+ * cells that are new now. */
+static uint32_t begin(
+    sbfi_body_paths *p, const sbfi_bone_segment *segments, uint32_t segment_count, late_start *late) {
   uint32_t count = begin_inside(p, &segments[0]);
-  if (!count) count = begin_nearest(p, &segments[0]);
+  *late = count ? (late_start){.is_waiting = false} : find_nearest(p, &segments[0]);
   for (uint32_t i = 1; i < segment_count; i++) count += begin_inside(p, &segments[i]);
   return count;
 }
@@ -106,11 +116,16 @@ void sbfi_body_paths_from(sbfi_body_paths *p, const sbfi_bone_segment *segments,
   for (uint32_t i = 0; i < p->grid->cell_count; i++) p->distances[i] = INFINITY;
   for (uint32_t b = 0; b < BUCKETS; b++) p->first[b] = UINT32_MAX;
   if (!p->grid->cell_count) return;
-  uint32_t waiting = begin(p, segments, segment_count), bucket = UINT32_MAX;
-  for (uint32_t b = 0; b < BUCKETS && bucket == UINT32_MAX;
-       b++) /* a single distant cell may be in any bucket */
-    if (p->first[b] != UINT32_MAX) bucket = b;
-  for (; waiting; bucket = (bucket + 1) % BUCKETS)
+  late_start late;
+  uint32_t waiting = begin(p, segments, segment_count, &late);
+  for (uint32_t level = 0; waiting || late.is_waiting; level++) {
+    if (!waiting) level = (uint32_t)late.distance;
+    /* All waiting cells are in the buckets from this level on; a farther one would come too early. */
+    if (late.is_waiting && (uint32_t)late.distance < level + BUCKETS - 1) {
+      waiting += improve(p, late.cell, late.distance);
+      late.is_waiting = false;
+    }
+    const uint32_t bucket = level % BUCKETS;
     while (p->first[bucket] != UINT32_MAX) {
       uint32_t cell = p->first[bucket];
       p->first[bucket] = p->next[cell];
@@ -119,4 +134,5 @@ void sbfi_body_paths_from(sbfi_body_paths *p, const sbfi_bone_segment *segments,
       waiting--;
       waiting += expand(p, cell);
     }
+  }
 }
