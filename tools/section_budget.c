@@ -8,6 +8,7 @@
 #include "render/fault.h"
 #include "sbfmt/mechanics.h"
 #include "sbrun/detail.h"
+#include "tune/decimated_skin.h"
 #include "tune/yardstick.h"
 
 /* Coarsest first; the last is the reference of all. */
@@ -18,6 +19,8 @@ static const double ALIKE = 1.15;    /* maximum ratio of volumes of left and rig
 static const double SKIN_VISITS = 2; /* element visits per skin vertex with its normal: 8 to 14 ns */
 /* minimum fraction of the budget for soft parts, whatever the skin costs */
 static const double SOFT_FRACTION = 0.25;
+/* Skins with more vertices are decimated for the trials, so that only the final build costs more. */
+enum { DENSE = 32768, DECIMATED = 16384 };
 
 typedef struct candidate {
   uint32_t elements;
@@ -48,15 +51,15 @@ static double skin_visits_of(const sbf_asset *asset) {
   return skin;
 }
 
-/* Cost of a tick of the whole character with its skin; NAN if the runtime does not support it. */
-static double visits_of(const sbf_asset *asset) {
+/* Cost of a tick of the whole character with a skin; NAN if the runtime does not support it. */
+static double visits_of(const sbf_asset *asset, double skin_visits) {
   sbr_model *model = NULL;
   sbf_diagnostic why;
   sbr_detail_level detail_level;
   if (sbr_model_create(asset, NULL, &model, &why) != SBF_OK) return NAN;
   sbr_model_get_detail_levels(model, &detail_level, 1);
   sbr_model_destroy(model);
-  return (double)detail_level.visits + skin_visits_of(asset);
+  return (double)detail_level.visits + skin_visits;
 }
 
 static sbf_status build_one(const sbf_asset *source, const sbf_build_options *build, uint32_t elements,
@@ -112,7 +115,7 @@ static sbf_status choose(
     sbf_asset *built = NULL;
     status = build_one(source, build, sizes[i], &built, error);
     if (status != SBF_OK) break;
-    double visits = visits_of(built);
+    double visits = visits_of(built, choice->skin_visits);
     bool may = visits <= choice->max_visits && built->soft_bodies.count;
     if (may && !finest) {
       status = build_one(source, build, FINEST, &finest, error);
@@ -180,7 +183,7 @@ static sbf_status fit(
     sbf_asset *built = NULL;
     sbf_status status = build_one(source, build, choice->elements, &built, error);
     if (status != SBF_OK) return status;
-    choice->visits = visits_of(built);
+    choice->visits = visits_of(built, choice->skin_visits);
     const uint32_t soft = built->soft_bodies.count;
     bool done = choice->visits <= choice->max_visits || !leave_out_smallest(source, built, choice);
     sbf_asset_free(built);
@@ -197,8 +200,12 @@ sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *bui
       .exceeds = skin + SOFT_FRACTION * budget > budget,
       .finest = FINEST,
       .p99_fraction = NAN};
-  sbf_status status = choose(source, build, choice, error);
-  if (status == SBF_OK && !choice->elements) status = fit(source, build, choice, error);
+  sbf_asset *coarse = tune_count_vertices(source) > DENSE ? tune_decimate_skins(source, DECIMATED) : source;
+  if (!coarse) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a coarser skin");
+  /* It shares the recipes with the source. */
+  sbf_status status = choose(coarse, build, choice, error);
+  if (status == SBF_OK && !choice->elements) status = fit(coarse, build, choice, error);
+  if (coarse != source) sbf_asset_free(coarse);
   for (uint32_t i = 0; status == SBF_OK && i < source->section_recipes.count; i++) {
     bool soft = is_soft(recipe_at(source, i));
     recipe_at(source, i)->elements = soft ? choice->elements : 0;

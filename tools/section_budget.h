@@ -30,8 +30,9 @@ bool section_budget_applies(const sbf_asset *source, const sbf_build_options *bu
 /* Builds the sections with several numbers of elements, runs each with the character's own walk, hop and
  * shake, and selects the cheapest that is close to the finest; else the best within the budget. If none is
  * within it, makes the smallest parts that the conversion proposed rigid until one is. A quarter of the
- * budget is for soft parts even if the skin needs all of it. Writes the choice into the section recipes of
- * `source`, which is the caller's own. */
+ * budget is for soft parts even if the skin needs all of it. Tries skins of more
+ * than 32,768 vertices in a decimated form. Writes the choice into the section recipes of `source`, which is
+ * the caller's own. */
 sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *build, double budget_us,
     section_budget *choice, sbf_diagnostic *error);
 
