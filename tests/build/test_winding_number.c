@@ -1,6 +1,8 @@
 #include "build/geometry/winding_number.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "harness.h"
 #include "shapes.h"
@@ -115,6 +117,82 @@ START_TEST(soups)
 }
 END_TEST
 
+/* Triangles that a query visits. */
+static uint32_t visits_at(const sbfi_winding_tree *tree, sbfi_d3 at) {
+  uint32_t waiting[128], count = 0, visits = 0;
+  if (tree->node_count) waiting[count++] = 0;
+  while (count) {
+    const sbfi_winding_node *node = &tree->nodes[waiting[--count]];
+    sbfi_d3 displacement = sbfi_d3_sub(node->middle, at);
+    if (sbfi_d3_dot(displacement, displacement) > node->far2) continue;
+    visits += node->count;
+    for (uint32_t child = 0; !node->count && child < 2; child++) waiting[count++] = node->first + child;
+  }
+  return visits;
+}
+
+static double random_side(uint32_t *state) {
+  *state = *state * 1664525u + 1013904223u;
+  return (*state >> 8) / 16777216.0;
+}
+
+/* Long triangles everywhere: what a query costs does not grow with their number. */
+START_TEST(open_soups_of_long_triangles)
+{
+  enum { MAX = 4096, QUERIES = 200 };
+  static sbf_vec3 points[3 * MAX];
+  static uint32_t sizes[MAX], corners[3 * MAX];
+  uint32_t state = 7;
+  for (uint32_t i = 0; i < 3 * MAX; i++) {
+    points[i] =
+        (sbf_vec3){(float)random_side(&state), (float)random_side(&state), (float)random_side(&state)};
+    corners[i] = i;
+    sizes[i / 3] = 3;
+  }
+  for (uint32_t triangles = 256; triangles <= MAX; triangles *= 4) {
+    sbf_polygon_mesh mesh = {.positions = {points, 3 * triangles},
+        .polygon_sizes = {sizes, triangles},
+        .polygon_points = {corners, 3 * triangles}};
+    wind(&mesh);
+    double visits = 0;
+    for (uint32_t i = 0; i < QUERIES; i++) {
+      sbfi_d3 at = {random_side(&state), random_side(&state), random_side(&state)};
+      visits += visits_at(&winding.closed, at) + visits_at(&winding.caps, at);
+    }
+    ck_assert_double_lt(visits / QUERIES, 256);
+  }
+}
+END_TEST
+
+/* A closed tube of slivers keeps its exact number. */
+START_TEST(a_tube_of_slivers)
+{
+  enum { SIDES = 1000 };
+  static sbf_vec3 points[2 * SIDES];
+  static uint32_t sizes[SIDES + 2], corners[6 * SIDES];
+  for (uint32_t i = 0; i < SIDES; i++) {
+    double angle = 6.283185307179586 * i / SIDES;
+    for (uint32_t end = 0; end < 2; end++)
+      points[2 * i + end] = (sbf_vec3){(float)cos(angle), end ? 20.0f : -20.0f, (float)sin(angle)};
+    const uint32_t next = (i + 1) % SIDES, side[4] = {2 * i, 2 * i + 1, 2 * next + 1, 2 * next};
+    memcpy(corners + 4 * i, side, sizeof side);
+    sizes[i] = 4;
+    corners[4 * SIDES + i] = 2 * i;
+    corners[5 * SIDES + i] = 2 * (SIDES - 1 - i) + 1;
+  }
+  sizes[SIDES] = sizes[SIDES + 1] = SIDES;
+  sbf_polygon_mesh mesh = {.positions = {points, 2 * SIDES},
+      .polygon_sizes = {sizes, SIDES + 2},
+      .polygon_points = {corners, 6 * SIDES}};
+  wind(&mesh);
+  ck_assert_uint_eq(soup.cap_count, 0);
+  for (double y = -19.5; y < 20; y += 1) {
+    ck_assert_int_eq(abs(sbfi_winding_of_closed(&winding, (sbfi_d3){0.3, y, 0.5})), 1);
+    ck_assert_int_eq(sbfi_winding_of_closed(&winding, (sbfi_d3){1.2, y, 0.5}), 0);
+  }
+}
+END_TEST
+
 START_TEST(every_allocation_may_fail)
 {
   sbf_polygon_mesh sheet = shape_sheet(asset, 2, 2);
@@ -141,6 +219,8 @@ int main(void) {
   tcase_add_test(c, turned_patches_are_found);
   tcase_add_test(c, an_open_cube);
   tcase_add_test(c, soups);
+  tcase_add_test(c, open_soups_of_long_triangles);
+  tcase_add_test(c, a_tube_of_slivers);
   tcase_add_test(c, every_allocation_may_fail);
   suite_add_tcase(s, c);
   return harness_run(s);

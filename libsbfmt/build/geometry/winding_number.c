@@ -5,6 +5,11 @@
 
 enum { MAX_WAITING = 128 };
 static const double far_radii = 2;
+/* A soup is mostly open from this number of caps for each triangle. Its queries visit at most about so many
+ * triangles on average; the radii for that shrink in such steps down to a minimum. */
+static const double OPEN_SOUP = 0.5, MAX_VISITS = 128, SHRINK = 0.8, MIN_RADII = 0.02;
+/* Minimum extent of a volume as a fraction of its longest side. */
+static const double MIN_EXTENT = 0.25;
 
 static void corners_of(const sbfi_soup *soup, uint32_t triangle, sbfi_d3 corners[3]) {
   for (int k = 0; k < 3; k++) corners[k] = soup->points[soup->triangles[triangle][k]];
@@ -60,7 +65,37 @@ static void sum_node(const sbfi_soup *soup, const sbfi_winding_tree *w, const sb
   /* The farthest corner of the box. */
   sbfi_d3 reach = {fmax(high.x - to->middle.x, to->middle.x - low.x),
       fmax(high.y - to->middle.y, to->middle.y - low.y), fmax(high.z - to->middle.z, to->middle.z - low.z)};
-  to->far2 = far_radii * far_radii * sbfi_d3_dot(reach, reach);
+  to->far2 = sbfi_d3_dot(reach, reach); /* times the squared radii later */
+}
+
+/* Volume of a box in which points are queried. */
+static double volume_of(const sbfi_box *box) {
+  double sides[3], longest = 0, volume = 1;
+  for (int k = 0; k < 3; k++) {
+    sides[k] = (double)box->high[k] - (double)box->low[k];
+    longest = fmax(longest, sides[k]);
+  }
+  for (int k = 0; k < 3; k++) volume *= fmax(sides[k], MIN_EXTENT * longest);
+  return volume;
+}
+
+/* Estimates how many triangles a query in the volume visits: those of leaves within their far distance. */
+static double visits_of(const sbfi_winding_tree *tree, double radii, double volume) {
+  double sum = 0;
+  for (uint32_t n = 0; n < tree->node_count; n++) {
+    double reach = radii * sqrt(tree->nodes[n].far2), ball = 4 * SBFI_PI / 3 * reach * reach * reach;
+    if (tree->nodes[n].count) sum += tree->nodes[n].count * (ball < volume ? ball / volume : 1);
+  }
+  return sum;
+}
+
+/* Long triangles of an open soup are close to every point and enclose nothing: an exact sum would cost time
+ * quadratic in the triangles for a number without a meaning. */
+static double radii_of(const sbfi_winding_tree *tree, const sbfi_soup *soup, double volume) {
+  double radii = far_radii;
+  if (!(soup->cap_count > OPEN_SOUP * soup->triangle_count)) return radii;
+  while (radii > MIN_RADII && visits_of(tree, radii, volume) > MAX_VISITS) radii *= SHRINK;
+  return radii;
 }
 
 static void box_of(const sbfi_soup *soup, uint32_t triangle, sbfi_box *box) {
@@ -91,6 +126,8 @@ static bool make_tree(
       sbfi_arena_allocate(arena, tree.node_count, sizeof *made->nodes), tree.items, tree.node_count};
   if (!weights || !made->nodes) return false;
   for (uint32_t n = tree.node_count; n-- > 0;) sum_node(soup, made, &tree.nodes[n], n, weights);
+  double radii = radii_of(made, soup, volume_of(&tree.nodes[0].box));
+  for (uint32_t n = 0; n < tree.node_count; n++) made->nodes[n].far2 *= radii * radii;
   return true;
 }
 
