@@ -160,6 +160,9 @@ START_TEST(open_soups_of_long_triangles)
       visits += visits_at(&winding.closed, at) + visits_at(&winding.caps, at);
     }
     ck_assert_double_lt(visits / QUERIES, 256);
+    /* Outside the bounds it is exact. */
+    for (uint32_t i = 0; i < QUERIES; i++)
+      ck_assert_double_eq(number_at(random_side(&state), random_side(&state), 1.01), 0);
   }
 }
 END_TEST

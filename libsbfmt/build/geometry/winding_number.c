@@ -123,11 +123,12 @@ static bool make_tree(
   for (uint32_t t = 0; t < count; t++) tree.items[t] += first;
   double *weights = sbfi_arena_allocate(arena, tree.node_count, sizeof *weights);
   *made = (sbfi_winding_tree){
-      sbfi_arena_allocate(arena, tree.node_count, sizeof *made->nodes), tree.items, tree.node_count};
+      sbfi_arena_allocate(arena, tree.node_count, sizeof *made->nodes), tree.items, tree.node_count, false};
   if (!weights || !made->nodes) return false;
   for (uint32_t n = tree.node_count; n-- > 0;) sum_node(soup, made, &tree.nodes[n], n, weights);
   double radii = radii_of(made, soup, volume_of(&tree.nodes[0].box));
   for (uint32_t n = 0; n < tree.node_count; n++) made->nodes[n].far2 *= radii * radii;
+  made->is_rough = radii < far_radii;
   return true;
 }
 
@@ -138,7 +139,13 @@ bool sbfi_winding_make(sbfi_winding *winding, const sbfi_soup *soup, sbfi_arena 
          make_tree(&winding->caps, soup, surface, all, arena);
 }
 
+static bool is_within(const sbfi_soup *soup, sbfi_d3 p) {
+  return p.x >= soup->low.x && p.y >= soup->low.y && p.z >= soup->low.z && p.x <= soup->high.x &&
+         p.y <= soup->high.y && p.z <= soup->high.z;
+}
+
 static double number_of(const sbfi_soup *soup, const sbfi_winding_tree *tree, sbfi_d3 point) {
+  if (tree->is_rough && !is_within(soup, point)) return 0;
   uint32_t waiting[MAX_WAITING], waiting_count = 0;
   double halves = 0, dipoles = 0;
   if (tree->node_count > 0) waiting[waiting_count++] = 0;

@@ -28,6 +28,7 @@ typedef struct sbfi_winding_tree {
   sbfi_winding_node *nodes;
   uint32_t *triangles; /* of the leaves */
   uint32_t node_count;
+  bool is_rough; /* dipoles are used at less than twice the radius, and nothing outside the bounds */
 } sbfi_winding_tree;
 
 typedef struct sbfi_winding {

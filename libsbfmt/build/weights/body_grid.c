@@ -84,6 +84,15 @@ static void mark_caps(const sbfi_body_grid *g, const sbfi_soup *soup, uint8_t *m
   }
 }
 
+/* Whether a box belongs to the margin, which stays empty so that every cell has all neighbours. */
+static bool is_margin(const sbfi_body_grid *g, uint32_t box) {
+  const uint32_t at[3] = {
+      box % g->counts[0], box / g->counts[0] % g->counts[1], box / g->counts[0] / g->counts[1]};
+  for (int k = 0; k < 3; k++)
+    if (at[k] == 0 || at[k] + 1 == g->counts[k]) return true;
+  return false;
+}
+
 /* Inside by winding number: one evaluation for each run of boxes in a row without surface or cap. */
 static void mark_solid(const sbfi_body_grid *g, const sbfi_winding *winding, uint8_t *marks) {
   int closed = 0;
@@ -92,6 +101,7 @@ static void mark_solid(const sbfi_body_grid *g, const sbfi_winding *winding, uin
     bool begins = box % g->counts[0] == 0 || (marks[box - 1] | marks[box]) & (SURFACE | CAP);
     sbfi_d3 at = sbfi_body_box_middle(g, box);
     if (begins) closed = sbfi_winding_of_closed(winding, at);
+    if (is_margin(g, box)) continue;
     if (!winding->soup->cap_count ? closed != 0
                                   : sbfi_winding_inside(closed, sbfi_winding_of_caps(winding, at)))
       marks[box] |= SOLID;
