@@ -93,9 +93,9 @@ double sbfi_box_distance(const sbfi_box *box, const double point[3]) {
   return sum;
 }
 
-uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
-    double (*distance)(const void *user, uint32_t item, const double point[3]), const void *user,
-    double *min) {
+uint32_t sbfi_box_tree_nearest_among(const sbfi_box_tree *tree, const double point[3],
+    double (*distance)(const void *user, uint32_t item, const double point[3]),
+    bool (*may_hold)(const void *user, uint32_t node), const void *user, double *min) {
   uint32_t waiting[MAX_DEPTH], waiting_count = 0, nearest = UINT32_MAX;
   double distances[MAX_DEPTH];
   if (tree->node_count > 0) {
@@ -120,12 +120,18 @@ uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
     uint32_t nearer = both[1] < both[0];
     for (uint32_t k = 0; k < 2; k++) {
       uint32_t child = k ? nearer : !nearer;
-      if (both[child] > *min) continue;
+      if (both[child] > *min || (may_hold && !may_hold(user, node->first + child))) continue;
       distances[waiting_count] = both[child];
       waiting[waiting_count++] = node->first + child;
     }
   }
   return nearest;
+}
+
+uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
+    double (*distance)(const void *user, uint32_t item, const double point[3]), const void *user,
+    double *min) {
+  return sbfi_box_tree_nearest_among(tree, point, distance, NULL, user, min);
 }
 
 /* Factor of `direction` at which the ray enters the box; negative without a hit. */

@@ -35,6 +35,11 @@ uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
     double (*distance)(const void *user, uint32_t item, const double point[3]), const void *user,
     double *min);
 
+/* As above, without the nodes for which `may_hold` returns false: none of their items has a distance. */
+uint32_t sbfi_box_tree_nearest_among(const sbfi_box_tree *tree, const double point[3],
+    double (*distance)(const void *user, uint32_t item, const double point[3]),
+    bool (*may_hold)(const void *user, uint32_t node), const void *user, double *min);
+
 /* First item that the ray from `origin` along `direction` hits, the lowest number if equal: `intersect`
  * returns the factor of `direction` at an item, or a negative number. UINT32_MAX: none up to the factor
  * `max`. */
