@@ -119,19 +119,25 @@ bool sbfi_array_reserve(sbfi_array *array, size_t capacity) {
   return true;
 }
 
-void *sbfi_array_push(sbfi_array *array, size_t count) {
+/* Room for `count` more items, whose content is not defined. NULL if memory runs out. */
+static void *extend(sbfi_array *array, size_t count) {
   size_t total;
   /* Reserves at least one item, since NULL means that memory ran out. */
   if (!sbfi_add_size(array->count, count, &total) || !sbfi_array_reserve(array, total ? total : 1))
     return NULL;
   char *destination = (char *)array->at + array->count * array->item_size;
   array->count = total;
-  return memset(destination, 0, count * array->item_size);
+  return destination;
+}
+
+void *sbfi_array_push(sbfi_array *array, size_t count) {
+  void *destination = extend(array, count);
+  return destination ? memset(destination, 0, count * array->item_size) : NULL;
 }
 
 bool sbfi_array_append(sbfi_array *array, const void *items, size_t count) {
   if (count == 0) return true;
-  void *destination = sbfi_array_push(array, count);
+  void *destination = extend(array, count);
   if (!destination) return false;
   memcpy(destination, items, count * array->item_size);
   return true;

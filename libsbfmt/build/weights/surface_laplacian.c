@@ -9,9 +9,17 @@
 static const double TIE_DISTANCE = 0.01, TIE_WEIGHT = 2;
 
 typedef struct entry {
-  uint32_t row, column;
+  uint32_t column;
   double value;
 } entry;
+
+/* Entries by row, counted first and then filled in: a list of all, sorted, would need three times the
+ * memory. */
+typedef struct rows {
+  uint32_t *begins; /* (site_count + 1) */
+  uint32_t *ends;   /* (site_count) while they are filled in */
+  entry *entries;   /* NULL while they are counted */
+} rows;
 
 typedef struct other_shells {
   const sbfi_weight_mesh *mesh;
@@ -20,19 +28,25 @@ typedef struct other_shells {
 
 static int compare_entries(const void *left, const void *right) {
   const entry *a = left, *b = right;
-  if (a->row != b->row) return a->row < b->row ? -1 : 1;
   if (a->column != b->column) return a->column < b->column ? -1 : 1;
   return a->value < b->value ? -1 : a->value > b->value; /* so that sums do not depend on the sort */
 }
 
-static bool add_both(sbfi_array *entries, uint32_t a, uint32_t b, double value) {
-  const entry pair[2] = {{a, b, value}, {b, a, value}};
-  return sbfi_array_append(entries, pair, 2);
+static void add(rows *r, uint32_t row, uint32_t column, double value) {
+  if (r->entries)
+    r->entries[r->ends[row]++] = (entry){column, value};
+  else
+    r->begins[row + 1]++;
+}
+
+static void add_both(rows *r, uint32_t a, uint32_t b, double value) {
+  add(r, a, b, value);
+  add(r, b, a, value);
 }
 
 /* Half the cotangent of each corner belongs to the opposite edge; obtuse corners count as right angles, so
  * that no weight is negative. */
-static bool add_triangles(const sbfi_weight_mesh *m, sbfi_array *entries) {
+static void add_triangles(const sbfi_weight_mesh *m, rows *r) {
   for (uint32_t t = 0; t < m->triangle_count; t++) {
     const uint32_t *c = m->triangles[t];
     for (int k = 0; k < 3; k++) {
@@ -42,10 +56,9 @@ static bool add_triangles(const sbfi_weight_mesh *m, sbfi_array *entries) {
               to_b = sbfi_d3_sub(sbfi_d3_of(m->sites[b]), apex);
       double sine = sbfi_d3_length(sbfi_d3_cross(to_a, to_b)), cosine = sbfi_d3_dot(to_a, to_b);
       double value = sine > 0 ? fmin(fmax(cosine / sine / 2, 1e-3), 1e3) : 1e-3;
-      if (!add_both(entries, a, b, value)) return false;
+      add_both(r, a, b, value);
     }
   }
-  return true;
 }
 
 static double distance_to_other(const void *user, uint32_t site, const double point[3]) {
@@ -56,13 +69,16 @@ static double distance_to_other(const void *user, uint32_t site, const double po
   return sbfi_d3_dot(separation, separation);
 }
 
-static bool tie_shells(const sbfi_weight_mesh *m, sbfi_array *entries, sbfi_arena *arena) {
-  if (m->shell_count < 2) return true;
+/* Finds the site of another shell to which each site is tied; UINT32_MAX: none. */
+static bool find_ties(const sbfi_weight_mesh *m, uint32_t *ties, sbfi_arena *arena) {
+  if (m->shell_count < 2) {
+    for (uint32_t i = 0; i < m->site_count; i++) ties[i] = UINT32_MAX;
+    return true;
+  }
   sbfi_box_tree tree;
   sbfi_box *boxes = sbfi_arena_allocate(arena, m->site_count, sizeof *boxes);
-  uint32_t *other = sbfi_arena_allocate(arena, m->site_count, sizeof *other);
   double *squared = sbfi_arena_allocate(arena, m->site_count, sizeof *squared);
-  if (!boxes || !other || !squared) return false;
+  if (!boxes || !squared) return false;
   for (uint32_t i = 0; i < m->site_count; i++) {
     sbf_vec3 at = m->sites[i];
     boxes[i] = (sbfi_box){{at.x, at.y, at.z}, {at.x, at.y, at.z}};
@@ -73,54 +89,87 @@ static bool tie_shells(const sbfi_weight_mesh *m, sbfi_array *entries, sbfi_aren
     const other_shells of = {m, s};
     double min = INFINITY;
     for (uint32_t i = 0; i < m->shells[s].site_count; i++) {
+      uint32_t *tie = &ties[sites[i]];
       sbf_vec3 at = m->sites[sites[i]];
       /* The maximum distance at which sites are tied. */
       double within = fmax(4 * min, TIE_DISTANCE * TIE_DISTANCE);
       squared[i] = isfinite(min) ? within * (1 + 1e-9) : INFINITY;
-      other[i] = sbfi_box_tree_nearest(
+      *tie = sbfi_box_tree_nearest(
           &tree, (double[]){(double)at.x, (double)at.y, (double)at.z}, distance_to_other, &of, &squared[i]);
-      if (other[i] != UINT32_MAX) min = fmin(min, squared[i]);
+      if (*tie != UINT32_MAX) min = fmin(min, squared[i]);
     }
     double max = fmax(4 * min, TIE_DISTANCE * TIE_DISTANCE);
     for (uint32_t i = 0; i < m->shells[s].site_count; i++)
-      if (other[i] != UINT32_MAX && squared[i] <= max && !add_both(entries, sites[i], other[i], TIE_WEIGHT))
-        return false;
+      if (!(squared[i] <= max)) ties[sites[i]] = UINT32_MAX;
   }
   return true;
+}
+
+static void add_ties(const sbfi_weight_mesh *m, const uint32_t *ties, rows *r) {
+  for (uint32_t i = 0; i < m->site_count; i++)
+    if (ties[i] != UINT32_MAX) add_both(r, i, ties[i], TIE_WEIGHT);
+}
+
+/* Sorts each row and adds up entries of the same column. Returns the number of entries left. */
+static size_t merge_entries(rows *r, uint32_t row_count) {
+  size_t count = 0;
+  for (uint32_t row = 0; row < row_count; row++) {
+    entry *at = r->entries + r->begins[row];
+    uint32_t old_count = r->ends[row] - r->begins[row];
+    const size_t first = count;
+    qsort(at, old_count, sizeof *at, compare_entries);
+    for (uint32_t i = 0; i < old_count; i++) {
+      if (count > first && r->entries[count - 1].column == at[i].column)
+        r->entries[count - 1].value += at[i].value;
+      else
+        r->entries[count++] = at[i];
+    }
+    r->ends[row] = (uint32_t)count;
+  }
+  return count;
 }
 
 static bool collect(
-    sbfi_surface_laplacian *l, const sbfi_weight_mesh *m, sbfi_array *entries, sbfi_arena *arena) {
-  entry *all = entries->at;
-  qsort(all, entries->count, sizeof *all, compare_entries);
-  size_t count = 0;
-  for (size_t i = 0; i < entries->count; i++) {
-    if (count && all[count - 1].row == all[i].row && all[count - 1].column == all[i].column)
-      all[count - 1].value += all[i].value;
-    else
-      all[count++] = all[i];
-  }
-  l->begins = sbfi_arena_allocate(arena, (size_t)m->site_count + 1, sizeof *l->begins);
+    sbfi_surface_laplacian *l, const rows *r, uint32_t row_count, size_t count, sbfi_arena *arena) {
+  l->begins = sbfi_arena_allocate(arena, (size_t)row_count + 1, sizeof *l->begins);
   l->columns = sbfi_arena_allocate(arena, count + 1, sizeof *l->columns);
   l->values = sbfi_arena_allocate(arena, count + 1, sizeof *l->values);
-  l->diagonal = sbfi_arena_allocate(arena, m->site_count, sizeof *l->diagonal);
+  l->diagonal = sbfi_arena_allocate(arena, row_count, sizeof *l->diagonal);
   if (!l->begins || !l->columns || !l->values || !l->diagonal) return false;
-  for (size_t i = 0; i < count; i++) {
-    l->begins[all[i].row + 1]++;
-    l->columns[i] = all[i].column;
-    l->values[i] = all[i].value;
-    l->diagonal[all[i].row] += all[i].value;
-  }
-  for (uint32_t i = 0; i < m->site_count; i++) l->begins[i + 1] += l->begins[i];
+  for (uint32_t row = 0, i = 0; row < row_count; l->begins[++row] = i)
+    for (; i < r->ends[row]; i++) {
+      l->columns[i] = r->entries[i].column;
+      l->values[i] = r->entries[i].value;
+      l->diagonal[row] += r->entries[i].value;
+    }
   return true;
 }
 
+/* Turns the counts into ranges, and makes room for the entries. */
+static bool begin_rows(rows *r, uint32_t row_count, const sbf_allocator *allocator) {
+  for (uint32_t row = 0; row < row_count; row++) {
+    if (r->begins[row + 1] > UINT32_MAX - r->begins[row]) return false;
+    r->begins[row + 1] += r->begins[row];
+    r->ends[row] = r->begins[row];
+  }
+  r->entries = sbfi_allocate(allocator, ((size_t)r->begins[row_count] + 1) * sizeof *r->entries);
+  return r->entries != NULL;
+}
+
 bool sbfi_surface_laplacian_make(sbfi_surface_laplacian *l, const sbfi_weight_mesh *m, sbfi_arena *arena) {
-  sbfi_array entries;
+  const sbf_allocator *allocator = &arena->allocator;
+  rows r = {.begins = sbfi_arena_allocate(arena, (size_t)m->site_count + 1, sizeof *r.begins),
+      .ends = sbfi_arena_allocate(arena, (size_t)m->site_count + 1, sizeof *r.ends)};
+  uint32_t *ties = sbfi_arena_allocate(arena, (size_t)m->site_count + 1, sizeof *ties);
   *l = (sbfi_surface_laplacian){0};
-  sbfi_array_init(&entries, &arena->allocator, sizeof(entry));
-  bool good = sbfi_array_reserve(&entries, 6 * (size_t)m->triangle_count) && add_triangles(m, &entries) &&
-              tie_shells(m, &entries, arena) && collect(l, m, &entries, arena);
-  sbfi_array_free(&entries);
+  if (!r.begins || !r.ends || !ties || !find_ties(m, ties, arena)) return false;
+  bool good = true;
+  for (int pass = 0; good && pass < 2; pass++) {
+    add_triangles(m, &r);
+    add_ties(m, ties, &r);
+    if (pass == 0) good = begin_rows(&r, m->site_count, allocator);
+  }
+  good = good && collect(l, &r, m->site_count, merge_entries(&r, m->site_count), arena);
+  if (r.entries) sbfi_free(allocator, r.entries, ((size_t)r.begins[m->site_count] + 1) * sizeof *r.entries);
   return good;
 }
