@@ -35,7 +35,7 @@ START_TEST(the_margin_stays_empty)
   for (uint32_t t = 0; t < mesh.triangle_count; t++) sizes[t] = 3;
   const sbf_polygon_mesh surface = sbfi_weight_mesh_surface(&mesh, sizes);
   ck_assert(sbfi_body_rays_make(&rays, &surface, &arena));
-  ck_assert(sbfi_body_holds(&rays, (sbfi_d3){0.5, -0.01, 0.5}));
+  ck_assert(sbfi_body_contains(&rays, (sbfi_d3){0.5, -0.01, 0.5}));
   ck_assert(sbfi_body_grid_make(&grid, &mesh, &rays, &arena));
   ck_assert_uint_gt(grid.cell_count, 0);
   for (uint32_t cell = 0; cell < grid.cell_count; cell++) {
