@@ -196,6 +196,16 @@ START_TEST(a_tube_of_slivers)
 }
 END_TEST
 
+/* What is kept is less than 200 bytes a triangle; what is only needed to make it takes more. */
+START_TEST(memory_is_given_back)
+{
+  sbf_polygon_mesh cube = shape_cube(asset, 60, 2, (sbf_vec3){0, 0, 0});
+  wind(&cube);
+  ck_assert_uint_eq(soup.triangle_count, 43200);
+  ck_assert_uint_lt(arena.used_bytes, 200 * (size_t)soup.triangle_count);
+}
+END_TEST
+
 START_TEST(every_allocation_may_fail)
 {
   sbf_polygon_mesh sheet = shape_sheet(asset, 2, 2);
@@ -224,6 +234,7 @@ int main(void) {
   tcase_add_test(c, soups);
   tcase_add_test(c, open_soups_of_long_triangles);
   tcase_add_test(c, a_tube_of_slivers);
+  tcase_add_test(c, memory_is_given_back);
   tcase_add_test(c, every_allocation_may_fail);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -16,7 +16,8 @@ typedef struct side {
 
 typedef struct work {
   sbfi_soup *soup;
-  sbfi_arena *arena;
+  sbfi_arena *arena;   /* of the soup */
+  sbfi_arena *scratch; /* of the rest, which takes several times as much */
   side *sides;
   uint32_t *side_of; /* (3 * triangle_count) */
   uint32_t side_count;
@@ -37,7 +38,7 @@ static size_t table_size(size_t count) {
 /* Numbers the positions: `new_from_old` receives each point's. */
 static bool weld(work *w, const sbf_vec3_list *from, uint32_t *new_from_old) {
   size_t size = table_size(from->count);
-  uint32_t *slots = sbfi_arena_allocate(w->arena, size, sizeof *slots);
+  uint32_t *slots = sbfi_arena_allocate(w->scratch, size, sizeof *slots);
   if (!slots) return false;
   memset(slots, 0xff, size * sizeof *slots);
   for (uint32_t i = 0; i < from->count; i++) {
@@ -84,10 +85,10 @@ static void fan(sbfi_soup *soup, const sbf_polygon_mesh *mesh, const uint32_t *n
 static bool find_sides(work *w) {
   const sbfi_soup *soup = w->soup;
   size_t uses = 3 * (size_t)soup->triangle_count, size = table_size(uses);
-  uint32_t *slots = sbfi_arena_allocate(w->arena, size, sizeof *slots);
-  uint64_t *keys = sbfi_arena_allocate(w->arena, uses, sizeof *keys);
-  w->sides = sbfi_arena_allocate(w->arena, uses, sizeof *w->sides);
-  w->side_of = sbfi_arena_allocate(w->arena, uses, sizeof *w->side_of);
+  uint32_t *slots = sbfi_arena_allocate(w->scratch, size, sizeof *slots);
+  uint64_t *keys = sbfi_arena_allocate(w->scratch, uses, sizeof *keys);
+  w->sides = sbfi_arena_allocate(w->scratch, uses, sizeof *w->sides);
+  w->side_of = sbfi_arena_allocate(w->scratch, uses, sizeof *w->side_of);
   if (!slots || !keys || !w->sides || !w->side_of) return false;
   memset(slots, 0xff, size * sizeof *slots);
   for (uint32_t use = 0; use < uses; use++) {
@@ -141,8 +142,8 @@ static uint32_t walk_piece(const work *w, uint32_t first, uint8_t *facing, uint3
 
 static bool flip_pieces(work *w) {
   sbfi_soup *soup = w->soup;
-  uint8_t *facing = sbfi_arena_allocate(w->arena, soup->triangle_count, 1);
-  uint32_t *waiting = sbfi_arena_allocate(w->arena, soup->triangle_count, sizeof *waiting);
+  uint8_t *facing = sbfi_arena_allocate(w->scratch, soup->triangle_count, 1);
+  uint32_t *waiting = sbfi_arena_allocate(w->scratch, soup->triangle_count, sizeof *waiting);
   if (!facing || !waiting) return false;
   memset(facing, UNSEEN, soup->triangle_count);
   for (uint32_t t = 0; t < soup->triangle_count; t++) {
@@ -189,9 +190,9 @@ static uint32_t balance_sides(const work *w) {
 static bool cap_holes(work *w, uint32_t missing) {
   sbfi_soup *soup = w->soup;
   uint32_t count = soup->point_count;
-  uint32_t *parents = sbfi_arena_allocate(w->arena, count, sizeof *parents);
-  uint32_t *apexes = sbfi_arena_allocate(w->arena, count, sizeof *apexes);
-  uint32_t *sums = sbfi_arena_allocate(w->arena, count, sizeof *sums);
+  uint32_t *parents = sbfi_arena_allocate(w->scratch, count, sizeof *parents);
+  uint32_t *apexes = sbfi_arena_allocate(w->scratch, count, sizeof *apexes);
+  uint32_t *sums = sbfi_arena_allocate(w->scratch, count, sizeof *sums);
   sbfi_d3 *points = sbfi_arena_allocate(w->arena, (size_t)count + missing, sizeof *points);
   uint32_t(*triangles)[3] =
       sbfi_arena_allocate(w->arena, (size_t)soup->triangle_count + missing, sizeof *triangles);
@@ -233,21 +234,30 @@ static bool cap_holes(work *w, uint32_t missing) {
   return true;
 }
 
+static bool make(work *w, const sbf_polygon_mesh *mesh, size_t max) {
+  sbfi_soup *soup = w->soup;
+  uint32_t *new_from_old = sbfi_arena_allocate(w->scratch, mesh->positions.count, sizeof *new_from_old);
+  soup->points = sbfi_arena_allocate(w->arena, mesh->positions.count, sizeof *soup->points);
+  soup->triangles = sbfi_arena_allocate(w->arena, max, sizeof *soup->triangles);
+  if (!new_from_old || !soup->points || !soup->triangles) return false;
+  if (!weld(w, &mesh->positions, new_from_old)) return false;
+  fan(soup, mesh, new_from_old);
+  if (soup->triangle_count == 0) return true;
+  if (!find_sides(w) || !flip_pieces(w)) return false;
+  uint32_t missing = balance_sides(w);
+  return missing == 0 || cap_holes(w, missing);
+}
+
 bool sbfi_soup_make(sbfi_soup *soup, const sbf_polygon_mesh *mesh, sbfi_arena *arena) {
-  *soup = (sbfi_soup){.triangle_count = 0};
-  work w = {.soup = soup, .arena = arena};
+  sbfi_arena scratch;
+  work w = {.soup = soup, .arena = arena, .scratch = &scratch};
   size_t max = 0;
+  *soup = (sbfi_soup){.triangle_count = 0};
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++) max += mesh->polygon_sizes.at[p] - 2;
   if (max == 0) return true;
   if (max > UINT32_MAX / 8) return false; /* at most three traversals per triangle are counted in 32 bits */
-  uint32_t *new_from_old = sbfi_arena_allocate(arena, mesh->positions.count, sizeof *new_from_old);
-  soup->points = sbfi_arena_allocate(arena, mesh->positions.count, sizeof *soup->points);
-  soup->triangles = sbfi_arena_allocate(arena, max, sizeof *soup->triangles);
-  if (!new_from_old || !soup->points || !soup->triangles) return false;
-  if (!weld(&w, &mesh->positions, new_from_old)) return false;
-  fan(soup, mesh, new_from_old);
-  if (soup->triangle_count == 0) return true;
-  if (!find_sides(&w) || !flip_pieces(&w)) return false;
-  uint32_t missing = balance_sides(&w);
-  return missing == 0 || cap_holes(&w, missing);
+  sbfi_arena_init(&scratch, &arena->allocator, 0);
+  bool good = make(&w, mesh, max);
+  sbfi_arena_free(&scratch);
+  return good;
 }

@@ -110,26 +110,34 @@ static void box_of(const sbfi_soup *soup, uint32_t triangle, sbfi_box *box) {
   }
 }
 
-/* Builds the tree over the soup's triangles from `first` on. */
-static bool make_tree(
-    sbfi_winding_tree *made, const sbfi_soup *soup, uint32_t first, uint32_t end, sbfi_arena *arena) {
-  uint32_t count = end - first;
-  if (count == 0) return true;
+static bool fill_tree(sbfi_winding_tree *made, const sbfi_soup *soup, uint32_t first, uint32_t count,
+    sbfi_arena *arena, sbfi_arena *scratch) {
   sbfi_box_tree tree;
-  sbfi_box *boxes = sbfi_arena_allocate(arena, count, sizeof *boxes);
+  sbfi_box *boxes = sbfi_arena_allocate(scratch, count, sizeof *boxes);
   if (!boxes) return false;
   for (uint32_t t = 0; t < count; t++) box_of(soup, first + t, &boxes[t]);
-  if (!sbfi_box_tree_build(&tree, boxes, count, arena)) return false;
+  if (!sbfi_box_tree_build(&tree, boxes, count, scratch)) return false;
   for (uint32_t t = 0; t < count; t++) tree.items[t] += first;
-  double *weights = sbfi_arena_allocate(arena, tree.node_count, sizeof *weights);
-  *made = (sbfi_winding_tree){
-      sbfi_arena_allocate(arena, tree.node_count, sizeof *made->nodes), tree.items, tree.node_count, false};
-  if (!weights || !made->nodes) return false;
+  double *weights = sbfi_arena_allocate(scratch, tree.node_count, sizeof *weights);
+  *made = (sbfi_winding_tree){sbfi_arena_allocate(arena, tree.node_count, sizeof *made->nodes),
+      sbfi_arena_copy(arena, tree.items, count, sizeof *tree.items), tree.node_count, false};
+  if (!weights || !made->nodes || !made->triangles) return false;
   for (uint32_t n = tree.node_count; n-- > 0;) sum_node(soup, made, &tree.nodes[n], n, weights);
   double radii = radii_of(made, soup, volume_of(&tree.nodes[0].box));
   for (uint32_t n = 0; n < tree.node_count; n++) made->nodes[n].far2 *= radii * radii;
   made->is_rough = radii < far_radii;
   return true;
+}
+
+/* Builds the tree over the soup's triangles from `first` on. */
+static bool make_tree(
+    sbfi_winding_tree *made, const sbfi_soup *soup, uint32_t first, uint32_t end, sbfi_arena *arena) {
+  sbfi_arena scratch;
+  if (first == end) return true;
+  sbfi_arena_init(&scratch, &arena->allocator, 0);
+  bool good = fill_tree(made, soup, first, end - first, arena, &scratch);
+  sbfi_arena_free(&scratch);
+  return good;
 }
 
 bool sbfi_winding_make(sbfi_winding *winding, const sbfi_soup *soup, sbfi_arena *arena) {
