@@ -1,11 +1,13 @@
 """Characters that strangers send: beside the origin, several in a file, lying, tiny. Each walks, or a finding says what to do."""
 
+import json
 import re
 
 from bundle_file import matrix_of
-from sbfmt_program import SOURCE_PARTS, ProgramTest, main
-from skinned_glb import SkinnedGlb
+from sbfmt_program import SOURCE_PARTS, ProgramTest, main, read_bytes, read_text, write_bytes
+from skinned_glb import SkinnedGlb, box
 from stranger_rigs import add_person, people, turned, write_person_bvh, write_person_obj
+from textured_box import png_of
 
 
 class StrangerRigs(ProgramTest):
@@ -49,6 +51,42 @@ class StrangerRigs(ProgramTest):
         self.assertRegex(self.converted(turned("z", 180, (0, 1.8, 0))), r"along \+Y .* on its head.*\[RIG_LIES\]")
         self.assertNotIn("[RIG_LIES]", self.converted(turned("y", 180)))
 
+    def source_parts(self, name):
+        """What becomes of a file beside the title and the sources, which have its name."""
+        self.good("convert", self.path(name), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+        text = read_text(self.path("out.sbf"))
+        return re.sub(r'<source [^>]*>| title="[^"]*"', "", text)
+
+    def test_a_gltf_finds_files_whose_names_have_blanks(self):
+        """As exporters write them: percent-encoded, or as they are."""
+        glb = SkinnedGlb()
+        add_person(glb)
+        glb.json["images"] = [{"uri": "my%20skin.png"}]
+        glb.json["textures"] = [{"source": 0}]
+        glb.json["materials"] = [{"name": "skin", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+        glb.json["meshes"][0]["primitives"][0]["material"] = 0
+        write_bytes(self.path("my skin.png"), png_of(2, 2, (200, 0, 0)))
+        write_bytes(self.path("my d\u00e4ta.bin"), glb.binary)
+        found = []
+        for uri in ("my%20d%C3%A4ta.bin", "my d\u00e4ta.bin"):
+            glb.json["buffers"] = [{"byteLength": len(glb.binary), "uri": uri}]
+            write_bytes(self.path("in.gltf"), json.dumps({k: v for k, v in glb.json.items() if v != []}).encode())
+            found.append(self.source_parts("in.gltf"))
+            self.assertIn('path="my skin.png"', found[-1])
+        self.assertEqual(*found)
+        glb.json["buffers"][0]["uri"] = "gone.bin"
+        write_bytes(self.path("in.gltf"), json.dumps({k: v for k, v in glb.json.items() if v != []}).encode())
+        said = self.fails(1, "convert", self.path("in.gltf"), "-o", self.path("none.sbf"))
+        self.assertRegex(said, r'"gone.bin"; put that file where its name says.*\[IMPORT_REFUSED\]')
+
+    def test_a_binary_gltf_of_any_name_is_read_as_one(self):
+        people(self.path("in.glb"), matrix_of())
+        expected, content = self.source_parts("in.glb"), read_bytes(self.path("in.glb"))
+        for name in ("in.vrm", "in.fbx", "in"):
+            with self.subTest(name):
+                write_bytes(self.path(name), content)
+                self.assertEqual(self.source_parts(name), expected)
+
     def test_the_unit_of_a_mesh_on_motion_capture_is_the_mesh_s(self):
         for mesh, bones, unit in ((1 / 0.0254, 100, "0.0254"), (100, 1 / 0.0254, "0.01"), (1000, 100, "0.001"),
                                   (1 / 0.3048, 100, "0.3048")):
@@ -66,6 +104,21 @@ class StrangerRigs(ProgramTest):
                 self.assertNotIn("UNIT_LOOKS_WRONG", said)
                 low, high = (self.json_of("info", self.path("out.sbf"))["bounds"][k][1] for k in ("min", "max"))
                 self.assertAlmostEqual(high - low, 1.79, delta=0.02)
+
+    def test_a_floor_says_nothing_of_the_unit(self):
+        glb = SkinnedGlb()
+        add_person(glb)
+        glb.node("Floor", mesh=glb.mesh(*box((-50, -0.1, -50), (50, 0, 50))))
+        glb.write(self.path("in.glb"))
+        said = self.good("convert", self.path("in.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf")).err
+        self.assertRegex(said, r"object 'Floor' measures 100 m beside bones of 1.4\d* m.*\[UNIT_LOOKS_WRONG\]")
+        self.assertNotIn("--unit", said)
+
+    def test_no_unit_is_proposed_that_the_option_refuses(self):
+        self.assertIn("scale it in its program", self.converted(matrix_of(scale=(1e-15,) * 3)))
+        said = self.converted(matrix_of(scale=(1e-6,) * 3))
+        unit = re.search(r"--unit (\S+) makes it", said).group(1)
+        self.converted(matrix_of(scale=(1e-6,) * 3), options=("--unit", unit))
 
     def test_equal_names_of_nodes_are_told_with_a_remedy(self):
         glb = SkinnedGlb()

@@ -6,6 +6,10 @@
 
 /* m; heights of people, whom files of motion capture contain */
 static const double TALLEST = 3, USUAL = 1.75;
+/* metres in a unit, as --unit takes them */
+static const double MIN_UNIT = 1e-9, MAX_UNIT = 1e9;
+/* multiple of the bones' extent; a loose object larger than that is no part of a character */
+static const double SURROUNDINGS = 5;
 
 static double extent_of_bones(const sbf_bone_list *bones) {
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0;
@@ -50,19 +54,66 @@ static void check_person(sbfi_conversion *c, double size) {
       size / unit_m, c->rig_file->file, bones, unit, unit * size / unit_m, unit_m);
 }
 
+static double extent_of_mesh(const sbf_render_mesh *mesh) {
+  double extent = 0;
+  for (int k = 0; k < 3; k++) {
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < mesh->mesh.positions.count; i++) {
+      const sbf_vec3 p = mesh->mesh.positions.at[i];
+      const double at[3] = {(double)p.x, (double)p.y, (double)p.z};
+      low = fmin(low, at[k]);
+      high = fmax(high, at[k]);
+    }
+    extent = fmax(extent, high - low);
+  }
+  return extent;
+}
+
+/* A floor beside a character says nothing about its unit. True if there is one. */
+static bool check_surroundings(sbfi_conversion *c, double size) {
+  const sbf_asset *a = c->asset;
+  double bones = extent_of_bones(&a->bones);
+  const sbf_render_mesh *largest = NULL;
+  if (!(bones > 0) || sbfi_plausible_scale(bones) != 1 || !(size > SURROUNDINGS * bones)) return false;
+  for (uint32_t i = 0; i < a->render_meshes.count; i++) {
+    const sbf_render_mesh *mesh = &a->render_meshes.at[i];
+    if (!mesh->skin && mesh->bone == SBF_NONE && (!largest || extent_of_mesh(mesh) > extent_of_mesh(largest)))
+      largest = mesh;
+  }
+  if (!largest || !(extent_of_mesh(largest) > SURROUNDINGS * bones)) return false;
+  sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
+      "object '%s' measures %.4g m beside bones of %.4g m, and becomes a body of its own: leave it out of "
+      "the "
+      "file if it is a floor or another thing around the character",
+      largest->name, extent_of_mesh(largest), bones);
+  return true;
+}
+
+/* What no --unit gives, because the option has bounds. */
+static void report_size(sbfi_conversion *c, double size, double scale) {
+  double unit_m = c->scene->unit_m, unit = unit_m * scale;
+  const char *source = c->scene->unit_known ? "the form or the file says" : "is assumed";
+  if (unit >= MIN_UNIT && unit <= MAX_UNIT)
+    sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
+        "everything together measures %.4g m with a unit of %.4g m, as %s: --unit %.3g makes it %.4g m, "
+        "--unit %.3g says that it is right",
+        size, unit_m, source, unit, size * scale, unit_m);
+  else
+    sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
+        "everything together measures %.4g m with a unit of %.4g m, as %s: scale it in its program, for no "
+        "--unit makes it a character",
+        size, unit_m, source);
+}
+
 void sbfi_check_size(sbfi_conversion *c) {
-  double unit_m = c->scene->unit_m, size = sbfi_asset_extent(c->asset), scale = sbfi_plausible_scale(size);
+  double size = sbfi_asset_extent(c->asset), scale = sbfi_plausible_scale(size);
   bool bare_rig = c->rig_file && !c->rig_file->unit_known && c->rig_file->mesh_count == 0;
   if (c->options->unit_m > 0) return; /* the user is trusted */
   if (scale == 1 && c->scene->mesh_count == 0) {
     check_bones(c);
   } else if (bare_rig && !c->scene->unit_known && size > TALLEST) {
     check_person(c, size);
-  } else if (scale != 1) {
-    sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
-        "everything together measures %.4g m with a unit of %.4g m, as %s: --unit %.3g makes it %.4g m, "
-        "--unit %.3g says that it is right",
-        size, unit_m, c->scene->unit_known ? "the form or the file says" : "is assumed", unit_m * scale,
-        size * scale, unit_m);
+  } else if (scale != 1 && !check_surroundings(c, size)) {
+    report_size(c, size, scale);
   }
 }
