@@ -118,8 +118,13 @@ static bool parse(cli_call *call, int count, char **arguments) {
     call->values[index] = value;
     call->given[call->given_count++] = (struct cli_given){index, call->values[index]};
   }
-  if (call->input_count < verb->min_inputs ||
-      (verb->max_inputs >= 0 && call->input_count > verb->max_inputs)) {
+  bool too_many = verb->max_inputs >= 0 && call->input_count > verb->max_inputs;
+  if (too_many) {
+    cli_wrong(call, "'%s' is one input too many; usage: sbfmt %s %s", call->inputs[verb->max_inputs],
+        verb->name, verb->synopsis);
+    return false;
+  }
+  if (call->input_count < verb->min_inputs) {
     cli_wrong(call, "usage: sbfmt %s %s", verb->name, verb->synopsis);
     return false;
   }

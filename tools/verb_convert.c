@@ -168,6 +168,21 @@ static int convert_all(cli_call *call, sbf_convert_options *options) {
   return status;
 }
 
+/* A bundle is converted already: it takes motions and builds only. False, with a message, otherwise. */
+static bool fits_bundles(const cli_call *call) {
+  static const char *const of_sources[] = {"--rig", "--weights", "--unit", "--up", "--forward", "--gait",
+      "--limits", "--pin", "--hold", "--attach", "--shell", "--soft", "--rigid", "--firmness", "--goal",
+      "--goal-stiffness"};
+  for (int i = 0; i < call->input_count; i++)
+    for (size_t k = 0; is_bundle(call->inputs[i]) && k < sizeof of_sources / sizeof *of_sources; k++)
+      if (cli_value(call, of_sources[k]))
+        return cli_wrong(call,
+                   "%s is a bundle, which %s does not change: give it with the source, or leave it out",
+                   call->inputs[i], of_sources[k]),
+               false;
+  return true;
+}
+
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
   static const char *const axes[] = {"y", "z"};
@@ -181,10 +196,11 @@ static int run(cli_call *call) {
   if (!out == !folder)
     return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
-  if (!output_name_of_bundle(call, "-o") || !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) ||
-      !cli_word(call, "--up", axes, 2, &up) || !cli_word(call, "--forward", fronts, 6, &front) ||
-      !cli_word(call, "--limits", animals, 4, &limits) || !cli_word(call, "--gait", kinds, 7, &kind) ||
-      !read_budget(call, call->inputs[0], &budget_us) || !building_check(call) || !materials_check(call))
+  if (!output_name_of_bundle(call, "-o") || !fits_bundles(call) ||
+      !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) || !cli_word(call, "--up", axes, 2, &up) ||
+      !cli_word(call, "--forward", fronts, 6, &front) || !cli_word(call, "--limits", animals, 4, &limits) ||
+      !cli_word(call, "--gait", kinds, 7, &kind) || !read_budget(call, call->inputs[0], &budget_us) ||
+      !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
   options.keep_modulus = materials_of_all(call);

@@ -108,6 +108,8 @@ static bool open_outputs(run_state *r, cli_call *call) {
   int of = 0;
   if (!cli_word(call, "--of", sources, 2, &of)) return false;
   const char *cache = cli_value(call, "--cache"), *poses = cli_value(call, "--pose");
+  if (cli_value(call, "--of") && !cache)
+    return cli_wrong(call, "--of chooses what a point cache holds: say where to, --cache OUT.pc2"), false;
   r->cache_of_surface = of == 1;
   uint32_t points = of ? r->surface_count : r->skin_count;
   bool results = cache && result_cache_named(cache);

@@ -183,6 +183,14 @@ class Calls(ProgramTest):
                 self.assertRegex(result.err, r"\Asbfmt \w+: error: -o .*: that is a folder; name a file in it, as out\.\w+\n\Z")
         self.assert_empty_folder(but=["cube.obj"])
 
+    def test_options_that_would_do_nothing_are_refused(self):
+        for option in (("--rig", self.file), ("--unit", "2"), ("--gait", "fly"), ("--soft", "*"), ("--weights", "match")):
+            said = self.fails(FAILED, "convert", self.file, *option, "-o", self.path("x.sbf"))
+            self.assertIn(f"is a bundle, which {option[0]} does not change", said)
+        self.assertIn("--of chooses what a point cache holds", self.fails(FAILED, "run", self.file, "--of", "skin"))
+        self.assertIn("'0.2' is one input too many", self.fails(FAILED, "run", self.file, "--drive", "0.5", "0.2"))
+        self.assert_empty_folder()
+
     def test_inputs_and_outputs_that_cannot_be_meant(self):
         self.assertIn("standard input is not read", self.fails(FAILED, "info", "-"))
         said = self.fails(FAILED, "unpack", self.file, "-o", self.path("a.sbf"), "-o", self.path("b.sbf"))
