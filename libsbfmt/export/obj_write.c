@@ -174,20 +174,9 @@ static sbf_status write_library(sbfi_export *e, const char *path) {
   return sbfi_export_commit(e, path);
 }
 
-sbf_status sbfi_export_obj(sbfi_export *e) {
+static sbf_status write_meshes(sbfi_export *e, const char *library, bool surfaces) {
   const sbf_asset *asset = e->asset;
-  char library[4096];
   obj_counts before = {0, 0, 0};
-  bool surfaces = asset->render_meshes.count == 0;
-  if (surfaces && !asset->soft_bodies.count)
-    return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
-        "the file holds neither a render mesh nor a soft body: there is nothing to write to %s", e->path);
-  if (!library_path(e->path, library, sizeof library))
-    return sbfi_diagnose(e->error, SBF_CODE_IO_CANNOT_WRITE, "the path is too long: %.80s...", e->path);
-  if (asset->materials.count) {
-    sbf_status status = write_library(e, library);
-    if (status != SBF_OK) return status;
-  }
   sbfi_text_string(&e->text, "# meshes of sbfmt: metres, +Y up\n");
   if (asset->materials.count) {
     const char *slash = strrchr(library, '/');
@@ -203,4 +192,27 @@ sbf_status sbfi_export_obj(sbfi_export *e) {
     write_surface(e, &asset->soft_bodies.at[i], &before);
   report_unsupported(e, surfaces);
   return sbfi_export_commit(e, e->path);
+}
+
+static bool exists(const char *path) {
+  FILE *file = fopen(path, "rb");
+  if (file) fclose(file);
+  return file != NULL;
+}
+
+sbf_status sbfi_export_obj(sbfi_export *e) {
+  const sbf_asset *asset = e->asset;
+  char library[4096];
+  bool surfaces = asset->render_meshes.count == 0;
+  if (surfaces && !asset->soft_bodies.count)
+    return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
+        "the file holds neither a render mesh nor a soft body: there is nothing to write to %s", e->path);
+  if (!library_path(e->path, library, sizeof library))
+    return sbfi_diagnose(e->error, SBF_CODE_IO_CANNOT_WRITE, "the path is too long: %.80s...", e->path);
+  bool is_new = asset->materials.count && !exists(library);
+  sbf_status status = asset->materials.count ? write_library(e, library) : SBF_OK;
+  if (status != SBF_OK) return status;
+  status = write_meshes(e, library, surfaces);
+  if (status != SBF_OK && is_new) remove(library); /* of no use alone */
+  return status;
 }

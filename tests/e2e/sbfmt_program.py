@@ -10,7 +10,9 @@ import hashlib
 import json
 import os
 import re
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -47,6 +49,16 @@ def call(*arguments, timeout=300, environment=None, output=subprocess.PIPE):
                           stderr=subprocess.PIPE, timeout=timeout, env={**os.environ, **(environment or {})},
                           check=False)
     return Result(done.returncode, (done.stdout or b"").decode("utf-8"), done.stderr.decode("utf-8", "replace"))
+
+
+def call_limited(most_bytes, *arguments):
+    """Runs `sbfmt ARGUMENTS` where no file can be larger, as on a full disk."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
+
+    done = subprocess.run([PROGRAM, *map(str, arguments)], preexec_fn=limit, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    return Result(done.returncode, done.stdout.decode("utf-8"), done.stderr.decode("utf-8", "replace"))
 
 
 def read_bytes(path):

@@ -5,7 +5,7 @@ import re
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from sbfmt_program import ProgramTest, ROOT, example, main, read_bytes, read_text, shared, write_bytes
+from sbfmt_program import ProgramTest, ROOT, call_limited, example, main, read_bytes, read_text, shared, write_bytes
 
 BAR = os.path.join(ROOT, "spec", "samples", "dialect2012", "bar.xml")
 TICK = 1 / 60
@@ -120,6 +120,13 @@ class Forms(ProgramTest):
                          [mesh["polygons"] for mesh in before["render_meshes"]])
         self.assertIn("mtllib a.mtl", read_text(self.path("a.obj")))
         self.assertEqual(read_text(self.path("a.mtl")).count("newmtl"), 9)
+
+    def test_materials_do_not_stay_without_their_meshes(self):
+        source = example(self.class_folder.name)
+        result = call_limited(4096, "export", source, "-o", self.path("a.obj"))
+        self.assertEqual(result.status, 2)
+        self.assertIn("a.obj: cannot write the file", result.err)
+        self.assert_empty_folder()
 
     def test_tet_goes_round(self):
         self.good("convert", BAR, "-o", self.path("a.sbf"))

@@ -1,11 +1,8 @@
 """`sbfmt run --record` and `--replay`: what was recorded plays again to the bit, or says that it does not."""
 
 import os
-import resource
-import signal
-import subprocess
 
-from sbfmt_program import PROGRAM, ProgramTest, example, main, read_bytes, write_bytes
+from sbfmt_program import ProgramTest, call_limited, example, main, read_bytes, write_bytes
 
 SCRIPT = b"""0 drive 0.3 0.1
 0.2 drive 0.1 -0.4
@@ -72,14 +69,9 @@ class Replay(ProgramTest):
         self.assertIn("cannot be written", self.fails(2, "run", self.file, "--record", nowhere))
 
     def test_half_a_recording_does_not_stay(self):
-        def limit():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
-
-        result = subprocess.run([PROGRAM, "run", self.file, "--seconds", "1", "--drive", "0.3,0.1", "--record", self.tape],
-                                preexec_fn=limit, stdin=subprocess.DEVNULL, capture_output=True, check=False)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn(b"cannot be written", result.stderr)
+        result = call_limited(512, "run", self.file, "--seconds", "1", "--drive", "0.3,0.1", "--record", self.tape)
+        self.assertEqual(result.status, 2)
+        self.assertIn("cannot be written", result.err)
         self.assert_empty_folder()
 
 
