@@ -253,14 +253,25 @@ static bool is_checked(const sbri_island *island, const sbri_island_state *state
          state->min_ratio < SBRI_CRUSHED_RATIO;
 }
 
+/* Whether known or unknown loads may strain the body as they like. */
+static bool is_forced(const sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  return is_squeezed(c, island) || is_pressed_by_pins(c, island) || sbri_island_is_loaded(c, index);
+}
+
+bool sbri_is_inside_out(const sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  return !island->scheme->forceless && is_any_below(c, island, sbri_island_states(c)[index].min_ratio, 0) &&
+         is_forced(c, index);
+}
+
 sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   const sbri_island_state *state = &sbri_island_states(c)[index];
   bool unstable = state->unstable;
-  if (is_squeezed(c, island) || is_pressed_by_pins(c, island) || sbri_island_is_loaded(c, index))
-    return (sbri_shape){.unstable = unstable,
-        .inside_out = !island->scheme->forceless && is_any_below(c, island, state->min_ratio, 0)};
+  if (is_forced(c, index))
+    return (sbri_shape){.unstable = unstable, .inside_out = sbri_is_inside_out(c, index)};
   if (!(state->min_ratio > 0) || is_any_below(c, island, state->min_ratio, COLLAPSED_FRACTION))
     return (sbri_shape){.collapsed = true, .heaped = true, .unstable = true};
   if (!is_checked(island, state)) return (sbri_shape){.collapsed = false};

@@ -200,6 +200,12 @@ static void reset(
   count_reset(&state->recovery, !coupled && !island->scheme->forceless);
 }
 
+static bool put_back(const sbr_world *world, sbri_character *c, uint32_t index, sbri_whole_momentum *lost) {
+  if (lost) *lost = sbri_island_momentum(c, index);
+  reset(world, c, index, true, lost != NULL);
+  return true;
+}
+
 bool sbri_island_recover(
     const sbr_world *world, sbri_character *c, uint32_t index, sbri_whole_momentum *lost) {
   const sbri_island *island = &c->model->islands[index];
@@ -215,7 +221,8 @@ bool sbri_island_recover(
     state->damping_ticks--;
     damp_out(c, index, lost != NULL);
   }
-  if ((world->ticks + index) % CHECK_INTERVAL) return false;
+  if ((world->ticks + index) % CHECK_INTERVAL)
+    return state->recovery.ticks > 0 && sbri_is_inside_out(c, index) && put_back(world, c, index, lost);
   sbri_shape shape = sbri_shape_of(world, c, index);
   if (!shape.unstable)
     state->damping_ticks = 0;
@@ -231,7 +238,5 @@ bool sbri_island_recover(
   if (!is_collapsed && !jumped && !shape.inside_out &&
       !(shape.is_reported && shape.heaped && state->unstable >= UNSTABLE_TICKS))
     return false;
-  if (lost) *lost = sbri_island_momentum(c, index);
-  reset(world, c, index, true, lost != NULL);
-  return true;
+  return put_back(world, c, index, lost);
 }

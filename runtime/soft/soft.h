@@ -109,6 +109,8 @@ typedef struct sbri_shape {
   bool crushed;     /* some element is crushed in a body with known loads */
   bool inside_out;  /* loads explain the strain, but have turned a whole body inside out */
 } sbri_shape;
+/* Whether loads explain the strain of an island, but have turned a whole body of it inside out. */
+bool sbri_is_inside_out(const sbri_character *c, uint32_t island);
 sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32_t island);
 
 /* ---- soft/recovery.c ---- */
