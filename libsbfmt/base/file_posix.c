@@ -115,7 +115,10 @@ sbf_status sbfi_file_open(const char *path, sbfi_file *file, sbf_diagnostic *err
   if (handle < 0) return status;
   if (!S_ISREG(facts.st_mode)) {
     close(handle);
-    return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, path, "read parts of", ESPIPE);
+    status = sbfi_diagnose(error, SBF_CODE_IO_CANNOT_READ,
+        "this is a pipe or a device: save its content to a file and give that");
+    if (error) sbfi_copy_text(error->file, sizeof error->file, path);
+    return status;
   }
   file->handle = handle;
   file->size = (uint64_t)facts.st_size;

@@ -191,6 +191,12 @@ class Calls(ProgramTest):
         self.assertIn("'0.2' is one input too many", self.fails(FAILED, "run", self.file, "--drive", "0.5", "0.2"))
         self.assert_empty_folder()
 
+    def test_remedies_of_unusual_inputs(self):
+        self.assertIn("save its content to a file", self.fails(FAILED, "convert", "/dev/null", "-o", self.path("x.sbf")))
+        comma = write_bytes(self.path("comma.obj"), CUBE.replace(b"v 1 0 0", b"v 1,0 0 0"))
+        self.assertIn('"1,0" stands where a line "v" needs a number: write it with a point',
+                      self.fails(BAD_INPUT, "convert", comma, "-o", self.path("x.sbf")))
+
     def test_inputs_and_outputs_that_cannot_be_meant(self):
         self.assertIn("standard input is not read", self.fails(FAILED, "info", "-"))
         said = self.fails(FAILED, "unpack", self.file, "-o", self.path("a.sbf"), "-o", self.path("b.sbf"))

@@ -138,8 +138,9 @@ static sbf_status number_refused(reader *r, sbfi_number_status status, const cha
             sbfi_quote_of(word).text, keyword),
         r->line);
   return located(r,
-      sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX, "\"%s\" stands where a line \"%s\" needs a number",
-          sbfi_quote_of(word).text, keyword),
+      sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX, "\"%s\" stands where a line \"%s\" needs a number%s",
+          sbfi_quote_of(word).text, keyword,
+          memchr(word.at, ',', word.length) ? ": write it with a point, not a comma" : ""),
       r->line);
 }
 
