@@ -1,5 +1,6 @@
 #include "gltf_file.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,27 @@ enum { PATH_SIZE = 4096 };
 bool is_gltf_path(const char *path) {
   const char *dot = strrchr(path, '.');
   return dot && (strcasecmp(dot, ".glb") == 0 || strcasecmp(dot, ".gltf") == 0);
+}
+
+bool begins_as_glb(const char *path) {
+  uint8_t magic[4];
+  FILE *file = fopen(path, "rb");
+  if (!file) return false;
+  bool begins = fread(magic, 1, sizeof magic, file) == sizeof magic && gltf_word_at(magic) == GLB_MAGIC;
+  fclose(file);
+  return begins;
+}
+
+void percent_decode(char *text) {
+  char *to = text;
+  for (const char *from = text; *from; from++, to++) {
+    unsigned byte;
+    bool encoded = *from == '%' && isxdigit((unsigned char)from[1]) && isxdigit((unsigned char)from[2]) &&
+                   sscanf(from + 1, "%2x", &byte) == 1 && byte;
+    *to = encoded ? (char)byte : *from;
+    if (encoded) from += 2;
+  }
+  *to = 0;
 }
 
 bytes read_file(const char *path) {
@@ -42,10 +64,16 @@ static bytes chunk(const bytes *file, size_t *offset, uint32_t type) {
 static bytes buffer_beside(const gltf *g, const json_t *buffer) {
   char path[PATH_SIZE];
   const char *uri = json_string_value(json_object_get(buffer, "uri")), *slash = strrchr(g->path, '/');
-  if (!uri || strncmp(uri, "data:", 5) == 0 || strchr(uri, '%')) return (bytes){NULL, 0};
+  if (!uri || strncmp(uri, "data:", 5) == 0) return (bytes){NULL, 0};
   int length = snprintf(
       path, sizeof path, "%.*s%s", uri[0] == '/' || !slash ? 0 : (int)(slash - g->path) + 1, g->path, uri);
-  return length > 0 && (size_t)length < sizeof path ? read_file(path) : (bytes){NULL, 0};
+  if (length <= 0 || (size_t)length >= sizeof path) return (bytes){NULL, 0};
+  bytes content = read_file(path);
+  if (!content.at) {
+    percent_decode(path);
+    content = read_file(path);
+  }
+  return content;
 }
 
 /* Finds the JSON and the first binary chunk of a GLB; false for a glTF of text. */

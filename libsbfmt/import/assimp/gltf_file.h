@@ -23,8 +23,12 @@ typedef struct gltf {
 /* Empty if it cannot be read; the caller frees `at`. */
 bytes read_file(const char *path);
 
-/* Whether the name has the extension of a glTF file. */
+/* Whether the name has the extension of a glTF file, or the file begins as a binary one. */
 bool is_gltf_path(const char *path);
+bool begins_as_glb(const char *path);
+
+/* Replaces %XX by their bytes, in place. */
+void percent_decode(char *text);
 
 /* Reads the file, without buffers in other files. False if it cannot be read as glTF; gltf_close is required
  * in any case. */

@@ -16,6 +16,7 @@
 #include <strings.h>
 
 #include "declared_joints.h"
+#include "decoded_files.h"
 #include "gltf_file.h"
 #include "gltf_order.h"
 #include "import/scene/stream_format.h"
@@ -66,6 +67,11 @@ static bool is_camera_or_light(const struct aiScene *scene, const struct aiNode 
 }
 
 static declared_joints joints;
+
+/* Never freed: freeing a damaged scene could crash. Static, so that leak checkers can reach it. */
+static gltf gltf_read; /* empty for other formats */
+static struct aiPropertyStore *properties;
+static const struct aiScene *scene_read;
 
 /* FBX distinguishes limbs, nulls and meshes; assimp only reports whether a node is a null. */
 static sbfi_stream_kind kind_of(const struct aiScene *scene, const struct aiNode *node) {
@@ -192,6 +198,10 @@ static void write_image_of(
       at = i;
     }
   aiGetMaterialIntegerArray(material, "$tex.uvwsrc", (unsigned)types[at], 0, &uv_set, NULL);
+  if (gltf_read.json) {
+    percent_decode(path.data);
+    path.length = (ai_uint32)strlen(path.data);
+  }
   write_ai_string(&path);
   write_u32((uint32_t)uv_set);
   write_uv_transform(material, types[at]);
@@ -299,7 +309,8 @@ static char *read_whole(const char *path, size_t *size) {
   return text;
 }
 
-/* Reads the file with assimp, possibly after text repairs; an error status if text_forms.h rejects it. */
+/* Reads the file with assimp, possibly after text repairs; an error status if text_forms.h rejects it. A
+ * binary glTF of any name is read as one. */
 static int read_scene(const char *path, const struct aiScene **scene, const struct aiPropertyStore *with) {
   static const char *const of_text[] = {".dae", ".fbx", ".ply", ".bvh", ".x", ".ase", ".stl", ".md5mesh"};
   char why[TEXT_WHY] = "", *text = NULL, *rewritten = NULL;
@@ -315,9 +326,13 @@ static int read_scene(const char *path, const struct aiScene **scene, const stru
   if (verdict == TEXT_REFUSED) return SBFI_CHILD_REFUSED;
   if (verdict == TEXT_NOT_FINITE) return SBFI_CHILD_NOT_FINITE;
   if (verdict == TEXT_NO_MEMORY) return SBFI_CHILD_NO_MEMORY;
-  *scene = rewritten ? aiImportFileFromMemoryWithProperties(
-                           rewritten, (unsigned)rewritten_size, 0, strrchr(path, '.') + 1, with)
-                     : aiImportFileExWithProperties(path, 0, NULL, with);
+  if (gltf_read.json && !is_gltf_path(path))
+    *scene = aiImportFileFromMemoryWithProperties(
+        (const char *)gltf_read.file.at, (unsigned)gltf_read.file.size, 0, "glb", with);
+  else
+    *scene = rewritten ? aiImportFileFromMemoryWithProperties(
+                             rewritten, (unsigned)rewritten_size, 0, strrchr(path, '.') + 1, with)
+                       : aiImportFileExWithProperties(path, 0, gltf_read.json ? &decoded_files : NULL, with);
   free(rewritten);
   return SBFI_CHILD_DONE;
 }
@@ -331,11 +346,6 @@ static bool is_packed(const gltf *g) {
   return extension;
 }
 
-/* Never freed: freeing a damaged scene could crash. Static, so that leak checkers can reach it. */
-static gltf gltf_read; /* empty for other formats */
-static struct aiPropertyStore *properties;
-static const struct aiScene *scene_read;
-
 /* From this version on assimp renumbers the vertices of glTF. */
 static bool renumbers_gltf(void) {
   unsigned major = aiGetVersionMajor(), minor = aiGetVersionMinor();
@@ -347,8 +357,8 @@ int main(int argument_count, char **arguments) {
     fprintf(stderr, "usage: sbfmt-import FILE: a part of sbfmt convert, of no use by itself\n");
     return SBFI_CHILD_BAD_CALL;
   }
-  if (is_gltf_path(arguments[1]) && gltf_open(&gltf_read, arguments[1]) && is_packed(&gltf_read))
-    return SBFI_CHILD_REFUSED;
+  bool is_gltf = is_gltf_path(arguments[1]) || begins_as_glb(arguments[1]);
+  if (is_gltf && gltf_open(&gltf_read, arguments[1]) && is_packed(&gltf_read)) return SBFI_CHILD_REFUSED;
   properties = aiCreatePropertyStore();
   aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
   int status = read_scene(arguments[1], &scene_read, properties);

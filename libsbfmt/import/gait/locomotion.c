@@ -208,7 +208,8 @@ static void score_size(evaluation *j) {
   bool grounded = fabs(j->points.low[1]) < 0.05 * j->height;
   add(j, SBFI_LOCOMOTION_NONE, 0.5, "nothing has to move");
   if (j->holding <= 3 && !j->paired)
-    add(j, SBFI_LOCOMOTION_NONE, 2.2, "only %u bones hold something", j->holding);
+    add(j, SBFI_LOCOMOTION_NONE, 2.2, "only %u bone%s something", j->holding,
+        j->holding == 1 ? " holds" : "s hold");
   if (j->draft.has_mesh && !j->legs && !j->wings && grounded && j->holding >= 4 && j->holding <= 10)
     add(j, SBFI_LOCOMOTION_CRAWL, 2, "it rests on the ground without legs");
 }

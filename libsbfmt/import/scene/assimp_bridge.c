@@ -93,6 +93,10 @@ static sbf_status check_exit(const sbfi_process_result *result, sbf_diagnostic *
   case SBFI_CHILD_DONE:
     return SBF_OK;
   case SBFI_CHILD_REFUSED:
+    if (strstr(words, "could not open referenced file"))
+      return sbfi_diagnose(error, SBF_CODE_IMPORT_REFUSED,
+          "assimp refuses the file: %s; put that file where its name says, or export one file as .glb",
+          words);
     return sbfi_diagnose(error, SBF_CODE_IMPORT_REFUSED,
         "assimp refuses the file: %s; export it as a current FBX (2011 or later), glTF 2.0 or OBJ", words);
   case SBFI_CHILD_NOT_FINITE:
@@ -127,14 +131,18 @@ static sbf_status check_end(const sbfi_process_result *result, sbf_diagnostic *e
 
 /* Checks the file first, to distinguish a missing file from a rejected one, and to skip one that is too
  * large. */
-static sbf_status check_input(const char *path, const char *format, const sbfi_scene_options *options,
+static sbf_status check_input(const char *path, const char **format, const sbfi_scene_options *options,
     uint64_t *size_bytes, sbf_diagnostic *error) {
+  char magic[4];
   size_t limit_bytes = options->input_limit_bytes;
   sbfi_file file;
   sbf_status status = sbfi_file_open(path, &file, error);
   if (status) return status;
   uint64_t size = *size_bytes = file.size;
-  if (size && strcmp(format, "ply") == 0) status = sbfi_ply_header_check(&file, options->allocator, error);
+  bool is_glb = size >= sizeof magic && sbfi_file_read_at(&file, 0, magic, sizeof magic, NULL) == SBF_OK &&
+                memcmp(magic, "glTF", sizeof magic) == 0;
+  if (is_glb) *format = "glb"; /* whatever its name */
+  if (size && strcmp(*format, "ply") == 0) status = sbfi_ply_header_check(&file, options->allocator, error);
   sbfi_file_close(&file);
   if (status) return status;
   if (size == 0) return sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the file is empty");
@@ -170,7 +178,7 @@ sbf_status sbfi_assimp_read(
   uint64_t size_bytes = 0;
   scene->format = format_of(scene, path);
   if (!scene->format) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to read a scene");
-  sbf_status status = check_input(path, scene->format, options, &size_bytes, error);
+  sbf_status status = check_input(path, &scene->format, options, &size_bytes, error);
   if (!status) status = find_helper(options->helper_path, helper, sizeof helper, error);
   if (status) return status;
   double seconds = time_limit_s(options, size_bytes);
