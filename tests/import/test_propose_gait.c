@@ -339,6 +339,39 @@ START_TEST(steps_go_with_the_size)
 }
 END_TEST
 
+/* Skin of the shins comes down to the ground beside the feet. With `marked`, the feet have no skin of their
+ * own. */
+START_TEST(shins_on_the_ground_have_feet)
+{
+  bool marked = _i == 1;
+  sbfi_scene scene;
+  scene_begin(&scene);
+  int32_t hips = hang(&scene, "hips", SBF_NONE, 0, 1, 0, 0.125);
+  for (int side = 1; side >= -1; side -= 2) {
+    int32_t b = hang(&scene, "joint", hips, 0.125 * side, 0, 0, 0.0625);
+    b = hang(&scene, "thigh", b, 0.125 * side, 0, 0, 0.0625);
+    b = hang(&scene, "shin", b, 0, -0.5, 0.0625, 0.5);
+    b = hang(&scene, "foot", b, 0, -0.4375, -0.0625, marked ? 0 : 0.0625);
+    if (!marked) hang(&scene, "toes", b, 0, -0.03125, 0.25, 0.03125);
+  }
+  scene_end(&scene);
+  converted c;
+  converted_scene(&c, &scene, &scene, NULL);
+  const sbf_asset *a = c.asset;
+  check_proposal(a);
+  ck_assert_uint_eq(gait_of(a)->legs.count, 2);
+  for (uint32_t l = 0; l < 2; l++) {
+    const sbf_ik_chain *chain = &a->ik_chains.at[gait_of(a)->legs.at[l].ik];
+    ck_assert_str_eq(name_of(a, chain->root), "thigh");
+    ck_assert_str_eq(name_of(a, chain->end), "foot");
+    ck_assert(chain->has_pole);
+    ck_assert_float_eq_tol(gait_of(a)->legs.at[l].sole, 0.0625f, 1e-5f);
+  }
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
 /* What has a gait keeps it. */
 START_TEST(an_authored_gait_stays)
 {
@@ -366,6 +399,7 @@ int main(void) {
   tcase_add_test(tests, rigs_without_legs_or_spine);
   tcase_add_test(tests, shapes_tell_what_names_do_not);
   tcase_add_test(tests, what_looks_like_it_and_is_not);
+  tcase_add_loop_test(tests, shins_on_the_ground_have_feet, 0, 2);
   tcase_add_test(tests, steps_go_with_the_size);
   tcase_add_test(tests, an_authored_gait_stays);
   suite_add_tcase(suite, tests);

@@ -2,9 +2,10 @@
  *
  * A limb begins where everything below a bone is on one side. It is a leg if it reaches the ground.
  * Consider the path from its root to the bone that stands on the ground: the three consecutive bones with
- * the longest reach are thigh, shin and foot. A collar bone before them, or the long middle foot of an
- * animal that walks on its toes, moves with its neighbour. A spider's foot is as long as the others and
- * stands on its toe, a fourth bone. */
+ * the longest reach are thigh, shin and foot. Skin of a shin may come down to the ground too, as that of a
+ * boot: the path goes on to the foot. A collar bone before them, or the long middle foot of an animal that
+ * walks on its toes, moves with its neighbour. A spider's foot is as long as the others and stands on its
+ * toe, a fourth bone. */
 #include <math.h>
 
 #include "import/gait/gait_draft.h"
@@ -14,6 +15,9 @@ static const double GROUND_FRACTION = 0.05;
 static const double LIFTED_FRACTION = 0.2; /* the same for the twin of a leg, in a rig bound in mid stride */
 /* fraction of the height; parts this close to the leg's lowest point are on the ground */
 static const double FOOT_FRACTION = 0.02;
+/* fraction of the hip's height above the sole; a bone that begins higher is no foot but a shin, even if skin
+ * around its lower end is on the ground */
+static const double SHIN_FRACTION = 0.25;
 /* fraction of the height; minimum height of a leg's root above its sole */
 static const double HIP_FRACTION = 0.05;
 static const double MIN_SEGMENT = 0.05; /* minimum fraction of the reach for thigh and shin */
@@ -74,16 +78,27 @@ static bool choose_bones(const sbfi_gait_draft *d, const int32_t *path, uint32_t
   return leg->reach > 0;
 }
 
+/* Whether a bone of a limb begins too high for a foot. */
+static bool is_shin(const sbfi_gait_draft *d, int32_t bone, int32_t limb) {
+  double lowest = d->shapes[limb].low_below;
+  return (double)sbfi_draft_head(d, bone).y - lowest >
+         SHIN_FRACTION * ((double)sbfi_draft_head(d, limb).y - lowest);
+}
+
 static bool add_leg(sbfi_gait_draft *d, int32_t limb, double ground_fraction, int32_t *path) {
   const sbfi_bone_shape *shape = &d->shapes[limb];
   uint32_t count = 0;
   if (shape->low_below > d->ground + ground_fraction * d->height) return false;
   if ((double)sbfi_draft_bone(d, limb)->head.y < shape->low_below + HIP_FRACTION * d->height) return false;
-  for (int32_t bone = limb; bone != SBF_NONE; bone = next_down(d, bone)) {
+  double stands = shape->low_below + FOOT_FRACTION * d->height;
+  for (int32_t bone = limb, next; bone != SBF_NONE; bone = next) {
     path[count++] = bone;
-    if (d->shapes[bone].low <= shape->low_below + FOOT_FRACTION * d->height) break;
+    next = next_down(d, bone);
+    bool has_foot = next != SBF_NONE && d->shapes[next].low_below <= stands && is_shin(d, bone, limb);
+    if (d->shapes[bone].low <= stands && !has_foot) break;
   }
-  int32_t mark = count == 2 ? ankle_mark(d, path[1]) : SBF_NONE;
+  bool needs_ankle = count == 2 || (count > 2 && is_shin(d, path[count - 1], limb));
+  int32_t mark = needs_ankle ? ankle_mark(d, path[count - 1]) : SBF_NONE;
   if (mark != SBF_NONE) path[count++] = mark;
   sbfi_leg_draft *leg = &d->legs[d->leg_count];
   *leg = (sbfi_leg_draft){.limb = limb, .side = shape->side, .toe = SBF_NONE};
