@@ -205,6 +205,47 @@ START_TEST(a_snake_follows_the_path_of_its_nose)
 }
 END_TEST
 
+/* Stairs of `parameter` along z, three times as deep as high. */
+static double stairs(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  (void)x;
+  *normal = sbri_vec3(0, 1, 0);
+  return ground->parameters[0] * floor(z / (3 * ground->parameters[0]) + 0.5);
+}
+
+/* Straight up stairs and in a circle, up, along and down: its joints keep their distances and their speed. */
+START_TEST(a_snake_goes_over_edges_without_jumps)
+{
+  static const double STEP = 0.1;
+  for (int turns = 0; turns < 2; turns++) {
+    sbf_gait *gait;
+    sbf_asset *a = chain(SBF_GAIT_KIND_SLITHER, &gait, 0.05f);
+    ((sbf_undulation *)(uintptr_t)gait->undulation)->wavelength = 0.6f;
+    gait_stage s;
+    gait_stage_begin_on(&s, a, stairs, STEP);
+    s.rig.girth.bumper_count = 1, s.rig.girth.bumpers[0].radius = 0.05f; /* so that it can fall */
+    s.rig.girth.step_up = 0.1f;
+    double speed[BONES] = {0}, height[BONES] = {0}, jump = 0, stretch = 0, under = 0;
+    s.input.forward = 1, s.input.turn = turns ? 0.5f : 0;
+    for (int t = 0; t < 900; t++) {
+      gait_stage_ticks(&s, 1);
+      for (uint32_t b = 0; b < BONES; b++) {
+        sbf_vec3 at = s.pose[b].position, normal;
+        double now = ((double)at.y - height[b]) * 60;
+        if (t > 2) jump = fmax(jump, fabs(now - speed[b]) / 60);
+        height[b] = (double)at.y, speed[b] = now;
+        under = fmax(under, stairs(&s.ground, (double)at.x, (double)at.z, &normal) + 0.05 - (double)at.y);
+        double length = b ? (double)sbri_length(sbri_sub(at, s.pose[b - 1].position)) : 0;
+        if (b) stretch = fmax(stretch, fabs(length / ((double)LENGTH / BONES) - 1));
+      }
+    }
+    ck_assert_double_lt(jump, 0.15 * STEP);
+    ck_assert_double_lt(stretch, 0.02);
+    ck_assert_double_lt(under, 0.2 * STEP);
+    gait_stage_end(&s);
+  }
+}
+END_TEST
+
 START_TEST(the_serpenoid_curve_is_the_integral_of_its_heading)
 {
   double x = 0, z = 0;
@@ -532,6 +573,7 @@ int main(void) {
   tcase_add_test(tests, what_is_heavier_than_its_medium_sinks_and_stops_at_the_ground);
   tcase_add_test(tests, a_swimmer_stays_between_ground_and_surface);
   tcase_add_test(tests, a_snake_follows_the_path_of_its_nose);
+  tcase_add_test(tests, a_snake_goes_over_edges_without_jumps);
   tcase_add_test(tests, the_serpenoid_curve_is_the_integral_of_its_heading);
   tcase_add_test(tests, wheels_turn_by_the_distance_over_their_radius);
   tcase_add_test(tests, links_run_to_the_place_of_the_next);

@@ -12,6 +12,7 @@ static const float LOW = 1e-4f; /* m; minimum height of a fall */
 /* Height of the ground that supports the character, relative to the origin. */
 static float support_height(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float sum = 0;
+  if (sbri_is_kind(rig, SBF_GAIT_KIND_SLITHER)) return sbri_slither_support(rig, state, input);
   for (uint32_t i = 0; i < rig->leg_count; i++) sum += state->feet[i].ground.y;
   return rig->leg_count ? sum / (float)rig->leg_count
                         : sbri_ground_below(input, state->motion.position, NULL).y;
@@ -30,8 +31,7 @@ static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, cons
 /* Whether nothing supports it: no planted foot has ground, or, without legs, there is none under the body. */
 static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float unsupported = GONE * rig->girth.step_up * input->scale;
-  if (!rig->leg_count)
-    return sbri_ground_below(input, state->motion.position, NULL).y < state->fall.level - unsupported;
+  if (!rig->leg_count) return support_height(rig, state, input) < state->fall.level - unsupported;
   bool stands = false;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;

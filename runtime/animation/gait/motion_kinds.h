@@ -26,8 +26,8 @@ typedef struct sbri_motion_state {
   float idle_time, move_time;   /* of the gait's clips, s */
   float path_phase, path_ahead; /* of the serpenoid curve, cycles; m that the nose is past the first point */
   uint32_t path_count;          /* of `path`: 0 or SBRI_PATH_POINTS */
-  sbf_vec3 nose;                /* level; relative to the origin, as `path` is, m */
-  sbf_vec3 path[SBRI_PATH_POINTS]; /* where the nose was, newest first */
+  sbf_vec3 nose;                /* on the path; relative to the origin, as `path` is, m */
+  sbf_vec3 path[SBRI_PATH_POINTS]; /* where the nose was, newest first; y: height of the last pose */
   /* Behind it: sbri_fin_state for each fin, an angle (rad) for each wheel, a distance (m) for each tread. */
 } sbri_motion_state;
 
@@ -115,6 +115,8 @@ sbf_vec3 sbri_serpenoid(float amplitude, float phase, float *mean);
 void sbri_slither_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 void sbri_slither_tick(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step);
+/* Mean height of the ground under the body, relative to the origin. */
+float sbri_slither_support(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 void sbri_slither_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbr_transform *pose);
 
