@@ -85,6 +85,27 @@ static float posed_yaw(const gait_stage *s, uint32_t bone) {
   return remainderf(atan2f(faces.x, faces.z) - s->state->motion.heading, 6.2831853f);
 }
 
+/* Raised for its belly, which nothing is below any more. */
+START_TEST(a_raised_body_comes_down_smoothly)
+{
+  gait_stage s;
+  gait_stage_begin(&s, quadruped_asset());
+  s.input.forward = 0.2f;
+  gait_stage_ticks(&s, 120);
+  float raised = -0.1f * s.rig.stand.reach, was[2] = {0, 0}, worst = 0;
+  s.state->balance.clearance = s.state->balance.crouch = (sbri_lag){raised, 0};
+  for (int t = 0; t < 60; t++) {
+    gait_stage_ticks(&s, 1);
+    float height = s.state->posture.root.position.y;
+    if (t > 1) worst = fmaxf(worst, fabsf(height - 2 * was[0] + was[1]));
+    was[1] = was[0], was[0] = height;
+  }
+  ck_assert_float_lt(worst, -0.25f * raised);
+  ck_assert_float_ge(s.state->posture.lowered, -1e-3f);
+  gait_stage_end(&s);
+}
+END_TEST
+
 START_TEST(bones_turn_so_as_it_walks)
 {
   gait_stage s;
@@ -115,6 +136,7 @@ int main(void) {
   tcase_add_loop_test(tests, hips_turn_with_the_line_between_the_feet, 0, 3);
   tcase_add_test(tests, the_chest_turns_with_the_fore_feet_or_with_the_hips);
   tcase_add_test(tests, crossed_feet_do_not_turn_the_hips_round);
+  tcase_add_test(tests, a_raised_body_comes_down_smoothly);
   tcase_add_loop_test(tests, bones_turn_so_as_it_walks, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -407,6 +407,38 @@ START_TEST(a_foot_beyond_its_margin_is_put_down_anew)
 }
 END_TEST
 
+/* A leg's length a second, with steps as long as its legs would swing: it reaches the speed and keeps it. */
+START_TEST(large_bodies_reach_their_speed_and_keep_it)
+{
+  static const float scales[3] = {2, 8, 16};
+  walk w;
+  begin(&w, flat, 0);
+  sbf_gait *gait = (sbf_gait *)(uintptr_t)&w.on.asset->gaits.at[0];
+  float scale = scales[_i], reach = scale * w.on.rig.stand.reach;
+  gait->step_duration = 0.42f * sqrtf(reach);
+  w.on.input.scale = scale;
+  gait_stage_remake(&w.on);
+  w.on.input.forward = reach;
+  double slowest = 1, shortened = 1;
+  float begun[4] = {0};
+  for (int t = 0; t < 360; t++) {
+    double before = sbri_gait_distance(w.on.state);
+    gait_stage_ticks(&w.on, 1);
+    for (int i = 0; i < 4; i++) { /* a step that begins in the start ends sooner than it was meant to */
+      const sbri_foot *foot = &w.on.state->feet[i];
+      if (foot->planted) begun[i] = 0;
+      if (!foot->planted && begun[i] == 0) begun[i] = foot->step.duration_s;
+      if (!foot->planted) shortened = fmin(shortened, (double)(foot->step.duration_s / begun[i]));
+    }
+    if (t >= 240) slowest = fmin(slowest, 60 * (sbri_gait_distance(w.on.state) - before) / (double)reach);
+  }
+  ck_assert_double_gt(sbri_gait_distance(w.on.state) / (6 * (double)reach), 0.8);
+  ck_assert_double_gt(slowest, 0.97);
+  if (_i > 0) ck_assert_double_lt(shortened, 0.9);
+  gait_stage_end(&w.on);
+}
+END_TEST
+
 /* Beyond what it can walk a foot at a time. */
 START_TEST(steps_are_quicker_when_it_goes_faster)
 {
@@ -486,6 +518,7 @@ int main(void) {
   tcase_add_test(tests, a_taller_copy_walks_at_the_same_speed);
   tcase_add_test(tests, nothing_jumps_where_headings_begin_again);
   tcase_add_test(tests, a_foot_beyond_its_margin_is_put_down_anew);
+  tcase_add_loop_test(tests, large_bodies_reach_their_speed_and_keep_it, 0, 3);
   tcase_add_test(tests, steps_are_quicker_when_it_goes_faster);
   tcase_add_test(tests, what_hangs_on_a_leg_goes_along);
   suite_add_tcase(suite, tests);

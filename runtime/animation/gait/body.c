@@ -134,8 +134,8 @@ static float max_lowering_of_belly(const sbri_rig *rig, const sbri_gait_state *s
 /* Lowering for which all legs reach their feet; `early` receives that for a reach with a reserve. */
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float *early) {
-  float min = state->balance.clearance.value < 0 ? state->balance.clearance.value : 0,
-        max = min; /* the belly needs it to rise */
+  float min = state->balance.clearance.value < 0 ? state->balance.clearance.value : 0; /* the belly rises, */
+  float max = state->balance.crouch.value < min ? state->balance.crouch.value : min;   /* and sinks slowly */
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace.speed_fraction * CROUCH_S);
   *early = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {

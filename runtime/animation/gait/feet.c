@@ -158,6 +158,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   uint32_t count = 0, groups;
   choice c = {.stride = sbri_stride_of(rig, state, input)};
   state->pace.in_groups = c.stride.in_groups;
+  state->pace.quick = c.stride.level && (c.stride.in_groups || c.stride.running);
   state->pace.max_half_m = c.stride.speed > 0 ? c.stride.max_half_m : 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
@@ -191,7 +192,8 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     c.next = worst >= 0 ? 1u << worst : 0;
   }
   uint32_t in_air = feet_in_air(rig, state, &groups);
-  bool leans = !rig->stand.has_pegs && (!c.stride.in_groups || state->pace.standing_s > 0);
+  bool leans =
+      !rig->stand.has_pegs && ((!c.stride.in_groups && !state->pace.quick) || state->pace.standing_s > 0);
   uint32_t lifting = leans ? (in_air ? in_air : c.next) : 0;
   if (leans && !in_air && state->pace.standing_s == 0 && !c.next) lifting = 0;
   sbf_vec3 direction = displacement_in(state, time_in_air(rig, state, c.stride.duration_s));

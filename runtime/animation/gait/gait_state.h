@@ -21,6 +21,7 @@ typedef struct sbri_foot_step {
   sbf_vec3 planned;                          /* `to` at the time of the last plan */
   float phase;                               /* 0 to 1 */
   float duration_s;
+  float needed_s;               /* shortest duration for its knee */
   float speed_fraction;         /* speed fraction that the stance feet allowed at lift-off */
   float clearance;              /* maximum lift, m */
   float move_begin, move_end;   /* phases at which horizontal motion begins and ends */
@@ -88,6 +89,7 @@ typedef struct sbri_gait_pace {
   float since_lift_m;   /* distance since the last lift-off */
   float waiting_s;      /* time for which a due foot has had to wait */
   uint32_t in_groups;   /* 1: feet of a group step together; 0: as many as balance allows */
+  uint32_t quick;       /* 1: on level ground, and feet step without regard to balance */
   uint32_t pivot_leg;   /* 1-based leg that the body turns about; 0: none */
   uint32_t next_leg;    /* 1-based leg that will lift next, towards whose support the body leans; 0: none */
 } sbri_gait_pace;
@@ -228,6 +230,8 @@ void sbri_foot_update_heading(
 
 /* Hip height at the widest stride, as a fraction of the rest height. */
 #define SBRI_LOWERED 0.9f
+/* Maximum length of a step, in reaches. */
+#define SBRI_WIDEST 1.7f
 
 /* Horizontal circle within which a foot can stand: centre relative to its home, and radius. */
 typedef struct sbri_roam {
@@ -252,6 +256,7 @@ typedef struct sbri_stride {
   bool in_groups;    /* feet of a group step together */
   bool balanced;     /* slow enough to slow down rather than lose balance */
   bool running;      /* many legs, too fast to wait for balance */
+  bool level;        /* the ground is level here, ahead and behind */
   float max_half_m;  /* upper bound of half_m, mean over a stride */
   sbri_home homes[SBRI_MAX_LEGS];
 } sbri_stride;

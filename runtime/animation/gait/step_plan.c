@@ -17,7 +17,7 @@ static const float SOONEST = 0.6f;      /* minimum fraction of the step in which
 static const float KNEE_STEP = 3.925f;  /* maximum change of the knee's rate per frame, degrees */
 static const float FRAME_S = 1.0f / 60; /* that frame */
 static const float LONGEST_STEP = 2.4f; /* maximum duration as a multiple of the requested one */
-static const float SHORTEST = 0.5f;     /* the same: value for a step that needs less */
+static const float SHORTEST = 0.25f;    /* minimum duration as a multiple of the usual one */
 static const float DEGREES = 57.2957795f;
 enum { PROFILE_SAMPLES = 12, TRIES = 6, SAMPLES = 16 };
 
@@ -181,5 +181,6 @@ float sbri_step_time(const sbri_rig *rig, const sbri_gait_state *state, const sb
     duration *= sqrtf(step / KNEE_STEP);
     if (duration < wanted_s) break;
   }
-  return sbri_clamp(duration, SHORTEST * wanted_s, LONGEST_STEP * wanted_s);
+  if (duration > LONGEST_STEP * wanted_s) return LONGEST_STEP * wanted_s;
+  return duration > SHORTEST * usual ? duration : SHORTEST * usual;
 }

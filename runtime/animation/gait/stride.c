@@ -5,6 +5,7 @@
  * do so, and the body stays balanced. At higher speed the feet of a group step together; at still higher
  * speed steps become shorter in time. */
 #include "animation/gait/gait_state.h"
+#include "shapes/ground.h"
 
 static const float USED = 0.75f;        /* fraction of a foot's range that a stride uses */
 static const float DEEPEST = 0.8f;      /* fraction of the circle of an upright body; bounds its lowering */
@@ -26,9 +27,11 @@ static const float MISSED =
 static const float MISSES = 0.01f; /* additional distance at which it stops */
 static const float BRAKES =
     1; /* reaches per squared duration of a step: deceleration for a foot at its reach */
-static const float BESIDE = 1.15f;   /* half soles: minimum distance of feet from the middle */
-static const uint32_t MANY_LEGS = 6; /* number of legs from which on half of them suffice for balance */
-static const float LEVEL = 0.05f;    /* fraction of the reach: maximum height difference of level ground */
+static const float QUICK_BRAKES = 0.5f; /* factor of that duration for a foot that is about to lift off */
+static const float GAIN = 0.06f;        /* reaches per duration of a step: speed gained in half a step */
+static const float BESIDE = 1.15f;      /* half soles: minimum distance of feet from the middle */
+static const uint32_t MANY_LEGS = 6;    /* number of legs from which on half of them suffice for balance */
+static const float LEVEL = 0.05f;       /* fraction of the reach: maximum height difference of level ground */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
   sbf_vec3 v = sbri_headed(state, sbri_vec3(state->motion.sideways, 0, state->motion.forward));
@@ -205,6 +208,20 @@ bool sbri_stands_level(const sbri_rig *rig, const sbri_gait_state *state, float 
   return high - low < LEVEL * rig->stand.reach * scale;
 }
 
+/* Whether it stands on level ground that goes on, two legs' lengths ahead and one behind. */
+static bool is_level(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  double unused;
+  if (sbri_ground_is_flat(input->ground, &unused)) return true;
+  float reach = rig->stand.reach * input->scale, level = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) level += state->feet[i].ground.y / (float)rig->leg_count;
+  sbf_vec3 direction = sbri_normalize(sbri_body_velocity(state), sbri_headed(state, sbri_vec3(0, 0, 1)));
+  for (int k = -1; k <= 2; k++) {
+    sbf_vec3 at = sbri_add_scaled(state->motion.position, direction, (float)k * reach);
+    if (fabsf(sbri_ground_below(input, at, NULL).y - level) > LEVEL * reach) return false;
+  }
+  return sbri_stands_level(rig, state, input->scale);
+}
+
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stride s = {0};
   float max = check_homes(rig, state, input, &s);
@@ -228,6 +245,12 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
               sbri_stands_level(rig, state, input->scale);
   if (slow) s.in_groups = false;
   if (rig->stand.has_pegs) s.in_groups = true; /* rigid legs cannot follow a leaning body */
+  float step_s = usual < 0.4f ? usual : 0.4f,
+        soon = s.speed + GAIN * rig->stand.reach * input->scale / step_s;
+  float aimed = state->pace.step_limit * fastest;
+  if (soon > aimed) soon = s.speed > aimed ? s.speed : aimed;
+  s.level = is_level(rig, state, input);
+  if (!s.level) soon = s.speed;
   float half_per_second =
       0.5f * s.speed * (groups - 1) * SLACK; /* half a stride per second of a step's duration */
   s.available_s = half_per_second > 0 ? max / half_per_second : 1e6f;
@@ -239,8 +262,12 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
     if (needed > max) needed = max;
   } else if (s.in_groups || needed > max) { /* uses all available time: quick steps are harder */
     float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
-    s.duration_s = sbri_clamp(0.9f * s.available_s, SHORTEST * usual, longest);
-    needed = half_per_second * s.duration_s;
+    float widest =
+        SBRI_WIDEST * rig->stand.reach * input->scale / (1 + (groups - 1) * SLACK); /* during a step */
+    if (s.level && longest * soon > widest) longest = widest / soon;
+    float gain = s.speed > 0 ? soon / s.speed : 1;
+    s.duration_s = sbri_clamp(0.9f * s.available_s / gain, SHORTEST * usual, longest);
+    needed = half_per_second * gain * s.duration_s;
     if (needed > max) needed = max;
   }
   float trigger = rig->gait->step_trigger * input->scale;
@@ -304,7 +331,7 @@ float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri
   float min = 1, speed;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    if (state->pace.in_groups &&
+    if ((state->pace.in_groups || state->pace.quick) &&
         rig->legs[i].group == rig->legs[leg].group) { /* this foot steps too, if it is behind */
       sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
       sbf_vec3 behind = sbri_sub(sbri_add(state->motion.position, arm), state->feet[i].ground);
@@ -319,12 +346,14 @@ float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri
 float sbri_pace_of(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting) {
   float min = 1, speed, in_air_s = 0, step_s = rig->leg_count ? rig->gait->step_duration : 1;
-  float brakes = BRAKES * rig->stand.reach * input->scale / (step_s * step_s);
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     float left_s =
         state->feet[i].planted ? 0 : (1 - state->feet[i].step.phase) * state->feet[i].step.duration_s;
     in_air_s = left_s > in_air_s ? left_s : in_air_s;
   }
+  /* Feet that step together lift off as soon as the others have landed. */
+  float brakes_s = state->pace.quick ? QUICK_BRAKES * step_s : step_s;
+  float brakes = BRAKES * rig->stand.reach * input->scale / (brakes_s * brakes_s);
   *lasting = 1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;

@@ -5,11 +5,12 @@ static const float RESTING_PHASE = 0.75f; /* phase from which the target is fixe
 static const float SET_PHASE = 0.25f;     /* phase from which the target's height is fixed */
 static const float FOLLOW = 0.3f; /* fraction by which the target follows the wanted one per tick, at first */
 static const float SPARE_TIME = 1.15f; /* available time as a multiple of the needed time */
+static const float EASIEST =
+    0.5f; /* on uneven ground, counted duration of an easy step, of the intended one */
 static const float LEVEL = 0.08f; /* fraction of the reach: a larger difference of height is another level */
 static const float AS_PLANNED = 1.02f; /* needed time as a multiple of the available time that is tolerated */
 static const float REPLANNED =
     0.02f;                           /* fraction of the reach: a target that moves further is planned again */
-static const float WIDEST = 1.7f;    /* in reaches: maximum length of a step that begins far behind */
 static const float MIN_LIMIT = 0.1f; /* fraction of the commanded speed: minimum of the learned limit */
 enum { PASSES = 4 };
 
@@ -31,7 +32,7 @@ static sbf_vec3 target_position(const sbri_rig *rig, const sbri_gait_state *stat
   if (state->pace.standing_s > 0 || stride->speed <= 0) return home;
   sbf_vec3 direction = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
   float half = stride->half_m * sbri_length(velocity) / stride->speed;
-  float ahead = sbri_ahead(&at->roam, direction, half), max = WIDEST * rig->stand.reach * input->scale;
+  float ahead = sbri_ahead(&at->roam, direction, half), max = SBRI_WIDEST * rig->stand.reach * input->scale;
   float travelled =
       sbri_dot(sbri_sub(home, state->feet[leg].step.from), direction); /* distance along the step */
   if (travelled + ahead > max) ahead = max > travelled ? max - travelled : 0;
@@ -76,6 +77,8 @@ static bool plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_in
  * legs have no spare time, as on stairs. */
 static void adapt_speed(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, float needed_s) {
+  float easiest = stride->level ? 0 : EASIEST * stride->duration_s;
+  if (needed_s < easiest) needed_s = easiest; /* one easy step says little of the next */
   float fraction = needed_s > state->pace.step_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
   state->pace.step_s += fraction * (needed_s - state->pace.step_s);
   float wanted = sbri_wanted_speed(rig, state, input, stride->homes),
@@ -102,6 +105,7 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
     if (needed <= AS_PLANNED * foot->step.duration_s) break;
     foot->step.duration_s = needed;
   }
+  foot->step.needed_s = needed;
   adapt_speed(rig, state, input, stride, needed);
   foot->glides.x = sbri_glide_at(foot->ground.x), foot->glides.z = sbri_glide_at(foot->ground.z);
   foot->glides.base = sbri_glide_at(foot->ground.y), foot->glides.rise = sbri_glide_at(0);
@@ -146,9 +150,22 @@ static void move(sbri_foot *foot, float tick_s) {
   foot->heading = foot->glides.twist.position;
 }
 
+/* Shortens a step that began at a lower speed to the present duration of steps, or to the time for which the
+ * planted feet stay within reach, as far as its knee allows. */
+static void hasten(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stride *stride, uint32_t leg, sbri_foot *foot) {
+  float left = 1 - foot->step.phase;
+  if (!state->pace.quick || left <= 0) return;
+  float duration = stride->duration_s < foot->step.duration_s ? stride->duration_s : foot->step.duration_s;
+  duration *= sbri_lasting(rig, state, input, leg, left * duration);
+  if (duration < SPARE_TIME * foot->step.needed_s) duration = SPARE_TIME * foot->step.needed_s;
+  if (duration < foot->step.duration_s) foot->step.duration_s = duration;
+}
+
 bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
+  hasten(rig, state, input, stride, leg, foot);
   foot->step.phase += input->tick_s / foot->step.duration_s;
   if (foot->step.phase < RESTING_PHASE) {
     float left = 1 - foot->step.phase / RESTING_PHASE;
@@ -158,6 +175,7 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     if (off_plan) (void)plan(rig, state, input, leg);
     if (off_plan && foot->step.clearance > rig->gait->step_height * input->scale) { /* over an obstacle */
       float needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
+      if (needed > foot->step.needed_s) foot->step.needed_s = needed;
       if (needed > foot->step.duration_s) foot->step.duration_s = needed;
     }
   } else if (foot->step.to_normal.y != 0) {
