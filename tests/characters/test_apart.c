@@ -33,7 +33,7 @@ static sbr_world *world_of(const sbr_model *model, bool contacts, double separat
     sbr_character_id character;
     standing.position.x = separation_m * i;
     ck_assert_int_eq(sbr_character_create(world, model, &standing, &character, NULL), SBF_OK);
-    sbr_character_set_drive(world, character, 0.3f, 0, 0);
+    sbr_character_set_drive(world, character, 0.2f, 0, 0);
   }
   return world;
 }
