@@ -9,7 +9,7 @@ folder=$1
 shift
 wanted=" ${*:-blender godot} "
 packages='blender python3-numpy python3-cattr python3-requests libegl1 libgl1 libgl1-mesa-dri'
-packages_godot='godot libgl1 libgl1-mesa-dri libx11-6 libxcursor1 libxinerama1 libxrandr2 libxi6 libxext6 libxrender1'
+packages_godot='godot ca-certificates libgl1 libgl1-mesa-dri libx11-6 libxcursor1 libxinerama1 libxrandr2 libxi6 libxext6 libxrender1'
 
 # has PROGRAM: whether it is not wanted, or runs: that it is there is not enough, an installation may have been cut short.
 has() {

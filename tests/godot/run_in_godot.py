@@ -8,6 +8,7 @@ build whose add-on is installed, --addon one that was packed; without either the
 
 import argparse
 import json
+import math
 import os
 import re
 import shutil
@@ -65,6 +66,53 @@ def packed_mesh(program, path, folder):
     os.remove(text)
 
 
+def quaternion(text):
+    return [float(one) for one in text.split()]
+
+
+def turned(a, b):
+    """First b, then a."""
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return [aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz]
+
+
+def animated(program, folder):
+    """The lizard with clips: `nod` turns its neck once, `sway` its spine again and again, `crawl` takes its body bone 0.3 m forward; and a
+    mask of the spine."""
+    path, out = os.path.join(folder, "animated.sbf"), os.path.join(folder, "animated.sbfz")
+    subprocess.run([program, "unpack", os.path.join(folder, "lizard.sbfz"), "-o", path], check=True, capture_output=True)
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    bones = {}
+    for found in re.finditer(r"<bone ([^>]*)", text):
+        values = dict(re.findall(r'(\w+)="([^"]*)"', found.group(1)))
+        bones[values["id"]] = values
+    def keys(bone, *angles):
+        own = quaternion(bones[bone].get("rotation", "0 0 0 1"))
+        parent = quaternion(bones[bones[bone]["parent"]].get("rotation", "0 0 0 1"))
+        rest = turned([-parent[0], -parent[1], -parent[2], parent[3]], own)
+        return " ".join(str(one) for angle in angles for one in turned(rest, [math.sin(angle / 2), 0, 0, math.cos(angle / 2)]))
+    body = re.search(r'<gait [^>]*body="([^"]*)"', text).group(1)
+    head = [float(one) for one in bones[body].get("head", "0 0 0").split()]
+    ahead = f"{head[0]} {head[1]} {head[2]} {head[0]} {head[1]} {head[2] + 0.3}"
+    def clip(name, seconds, loop, bone, kind, times, values):
+        return (f'<clip id="{name}" name="{name}" duration="{seconds}" loop="{loop}"><track bone="{bone}" property="{kind}">'
+                f"<times>{times}</times><values>{values}</values></track></clip>")
+    more = ("<clips>" + clip("nod", 0.5, "false", "bone.neck", "rotation", "0 0.5", keys("bone.neck", 0, 0.5)) +
+            clip("sway", 1, "true", "bone.spine", "rotation", "0 0.5 1", keys("bone.spine", 0, 0.2, 0)) +
+            clip("crawl", 1, "true", body, "translation", "0 1", ahead) + "</clips>" +
+            '<bone_masks><bone_mask id="back" name="back"><bones>' + str(list(bones).index("bone.spine")) + "</bones></bone_mask></bone_masks>")
+    at = text.index("<environment") if "<environment" in text else text.index("</sbf>")
+    for tag in ("<retarget_chains", "<section_recipes", "<extensions"):
+        at = min(at, text.index(tag)) if tag in text else at
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text[:at] + more + text[at:])
+    subprocess.run([program, "pack", path, "--store", "-o", out], check=True, capture_output=True)
+    os.remove(path)
+
+
 def copy_demo(godot, program):
     """The demo project, with what its README has one make for it; but for the lizard, which is there."""
     for name in os.listdir(DEMO):
@@ -89,6 +137,28 @@ def demo(godot, program, keep):
         passed = godot.passes("demo", "res://picture.png", display=f":{screen.number}", allowed=IN_A_CHROOT)
     if keep:
         shutil.copy(os.path.join(godot.folder, "picture.png"), keep)
+    return passed
+
+
+REFUSALS = (
+    "play: the asset has no clip wave: see SoftAsset.get_clip_names", "play: the options are a dictionary with", "speed: nan is not a number",
+    "layer: 7 is not a number from 0 to 3", "the asset has no bone mask wings", "queue: 8 clips wait already",
+    "the asset has no ik_chain that ends at the bone wing", "set_ik_target: the transform is not finite",
+    "set_look_target: the asset has no such bone", "set_look_target: the point is not finite", "pose_weight: nan is not a number",
+    "drag: nothing is grabbed", "apply_impulse: the position is not finite", "apply_force: the asset has no soft body", "velocity: inf is not a number",
+    "move_and_slide: nothing of it walks", "collision_layer: 1.84467e+19 is not a number", "impulse", "its scale is negative")
+
+
+def refused(godot):
+    """Each wrong value is said once, to the node by its name, and nothing else is complained of."""
+    godot.copy(os.path.join(HERE, "checks.gd"), os.path.join(HERE, "refused.gd"))
+    done = godot.run("--headless", "--fixed-fps", "60", "--script", "refused.gd")
+    passed = godot.is_good(done, ("SoftCharacter3D#",))
+    for said in REFUSALS:
+        times = sum(said in line for line in done.stdout.splitlines() if "SoftCharacter3D#" in line)
+        if times != 1:
+            print(f"FAILED: said {times} times: {said}")
+            passed = False
     return passed
 
 
@@ -245,9 +315,9 @@ def main():
         if asked.case == "values":
             told = native(asked.program, godot.folder)
             passed = godot.passes("values", told["state_hash"], str(told["distance"]), str(sum(told["steps_taken"].values())))
-        elif asked.case in ("ground", "surroundings", "bodies", "push", "rest", "meet", "loose", "soft"):
+        elif asked.case in ("ground", "surroundings", "bodies", "push", "rest", "meet", "loose", "soft", "found"):
             passed = True
-            if asked.case in ("push", "rest", "meet", "loose", "soft"):
+            if asked.case in ("push", "rest", "meet", "loose", "soft", "found"):
                 cube(asked.program, godot.folder)
             for engine in ENGINES:
                 godot.set_engine(engine)
@@ -263,6 +333,12 @@ def main():
         elif asked.case == "signals":
             subprocess.run([asked.program, "build", BAR, "-o", os.path.join(godot.folder, "bar.sbfz"), "--elements", "600"], check=True, capture_output=True)
             passed = godot.passes("signals")
+        elif asked.case == "animation":
+            animated(asked.program, godot.folder)
+            passed = godot.passes("animation", allowed=("SoftCharacter3D#",), said="pose_source is no Skeleton3D")
+        elif asked.case == "refused":
+            animated(asked.program, godot.folder)
+            passed = refused(godot)
         elif asked.case == "damaged":
             with open(os.path.join(godot.folder, "lizard.sbfz"), "rb") as file:
                 whole = file.read()

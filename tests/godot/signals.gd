@@ -5,6 +5,7 @@ var lizard: SoftCharacter3D
 var bar: SoftCharacter3D
 var landed: Array[Vector3] = []
 var torn: Array[Vector3] = []
+var postures := []
 var torn_bodies: Array[int] = []
 
 
@@ -12,6 +13,7 @@ func _initialize() -> void:
 	lizard = add_character()
 	lizard.ground = SoftCharacter3D.GROUND_FLAT
 	lizard.landed.connect(func(place: Vector3) -> void: landed.append(place))
+	for name in ["fell", "rising", "rose"]: lizard.connect(name, func(): postures.append([name, frame]))
 	bar = add_character("res://bar.sbfz", Vector3(3, 0, 0))
 	bar.torn.connect(func(body: int, place: Vector3) -> void:
 		torn_bodies.append(body)
@@ -26,6 +28,7 @@ func _physics_process(_delta: float) -> bool:
 	if frame < 400:
 		return false
 	check(landed.size() == 1, "it landed %d times" % landed.size())
+	check(postures.map(func(one): return one[0]) == ["fell", "rising", "rose"] and postures[0][1] in [30, 31], "it said %s" % [postures])
 	if landed.size() == 1:
 		check(landed[0].distance_to(lizard.position) < 0.3, "it landed at %s and stands at %s" % [landed[0], lizard.position])
 	check(torn.size() > 3, "the bar tore %d times" % torn.size())

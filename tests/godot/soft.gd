@@ -7,6 +7,11 @@ var lizard: SoftCharacter3D
 var vertex := -1
 var start := Vector3.ZERO
 var target := Vector3.ZERO
+var floor_cube: SoftCharacter3D
+var slept := []
+var woken := []
+var struck := []
+var ended := 0
 
 
 func _initialize() -> void:
@@ -16,6 +21,11 @@ func _initialize() -> void:
 	cube.gravity_scale = 0
 	cube.position = Vector3(0, 3, 0)
 	root.add_child(cube)
+	floor_cube = add_character("res://cube.sbfz", Vector3(-3, 0, 0))
+	floor_cube.fell_asleep.connect(func(_body: int, _at: Vector3): slept.append(frame))
+	floor_cube.woke.connect(func(_body: int, _at: Vector3): woken.append(frame))
+	floor_cube.struck.connect(func(_body: int, _at: Vector3, _normal: Vector3, speed: float, with: Object): if with is StaticBody3D: struck.append(speed))
+	floor_cube.contact_ended.connect(func(_body: int, with: Object): if with is StaticBody3D: ended += 1)
 	lizard = add_character("res://lizard.sbfz", Vector3(4, 0, 0))
 
 
@@ -26,6 +36,7 @@ func momentum(wanted: Vector3, what: String) -> void:
 
 func _physics_process(_delta: float) -> bool:
 	frame += 1
+	if frame > 204 and frame <= 216: cube.apply_force(middle_of(cube) + Vector3(0, 5, 0), Vector3(-67.5, 0, 0))
 	match frame:
 		5:
 			near(cube.get_soft_mass(0), MASS, 0.5, "mass")
@@ -60,6 +71,34 @@ func _physics_process(_delta: float) -> bool:
 			check(cube.get_pin_reactions(0).size() == 0, "pins of what is loose")
 			print("pins ", pins, " stress ", cube.get_stress(0).size())
 			check(cube.get_stress(0).size() % 2 == 0, "stress")
+			var contacts := floor_cube.get_contacts()
+			check(contacts.size() == 1 and contacts[0].with is StaticBody3D and contacts[0].soft_body == 0 and contacts[0].normal.y > 0.9 and
+					absf(contacts[0].position.y) < 0.02, "the cube on the floor has contacts %s" % [contacts])
+			check(slept.size() >= 1 and floor_cube.is_asleep(0), "it did not say that it fell asleep")
 		201:
+			cube.set_soft_velocity(0, Vector3.ZERO, Vector3.ZERO)
+			cube.apply_impulse(middle_of(cube) + Vector3(0, 5, 0), Vector3(13.5, 0, 0))
+		204:
+			momentum(Vector3(13.5, 0, 0), "impulse at a place")
+		217:
+			check((cube.get_soft_velocity(0) * MASS).length() < 0.6, "force at a place: %s" % cube.get_soft_velocity(0))
+			start = middle_of(cube)
+			vertex = cube.get_nearest_vertex(0, start + Vector3(0, 2, 0))
+			check(cube.grab(start + Vector3(0, 2, 0)) and cube.is_grabbed(), "grab")
+			target = Vector3(0.4, 0.3, -0.2)
+		218:
+			cube.drag(start + Vector3(0, 2, 0) + target)
+			start = cube.get_skin(0)[vertex]
+		380:
+			check((cube.get_skin(0)[vertex] - start).distance_to(target) < 0.05, "dragged by %s, not %s" % [cube.get_skin(0)[vertex] - start, target])
+			cube.release()
+			check(not cube.is_grabbed(), "released")
+			struck.clear()
+			floor_cube.set_soft_velocity(0, Vector3(0, 2, 0), Vector3.ZERO)
+		384:
+			check(woken.size() >= 1, "it did not say that it woke")
+			check(floor_cube.get_contacts().is_empty() and ended == 1, "in the air it has contacts %s, %d ended" % [floor_cube.get_contacts(), ended])
+		500:
+			check(struck.size() >= 1 and struck[0] > 1 and struck.max() < 6, "it was struck at %s" % [struck])
 			finish()
 	return false

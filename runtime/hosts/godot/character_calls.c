@@ -1,15 +1,12 @@
 /* Methods of SoftCharacter3D for scripts, without its properties. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "sbrun/animation.h"
 #include "sbrun/detail.h"
+#include "method_table.h"
+#include "physics_parts.h"
 #include "sbrun/rigid.h"
 #include "soft_character.h"
-
-#define CALL(name) static void name(void *self, const gd_variant *const *arguments, gd_variant *result)
-#define UNUSED (void)arguments, (void)result
 
 CALL(drive) {
   soft_character *one = self;
@@ -32,6 +29,7 @@ CALL(teleport) {
   soft_character_set_position(one, gd_as_vector3(arguments[0]), (float)gd_as_float(arguments[1]));
   one->placed = true;
   soft_character_follow(one);
+  physics_parts_move(one->parts, one);
 }
 
 CALL(reset_pose) {
@@ -39,6 +37,7 @@ CALL(reset_pose) {
   UNUSED;
   if (!one->world) return;
   sbr_character_reset(one->world, one->id);
+  one->is_grabbed = false;
   soft_character_set_loose_position(one);
   one->stale = true;
 }
@@ -120,26 +119,6 @@ CALL(get_substeps_needed) {
   gd_assign(result, gd_int(one->model ? sbr_model_get_substeps(one->model->model) : 0));
 }
 
-/* Plays a clip by its name in the lowest layer; an empty name fades it out. */
-CALL(play) {
-  soft_character *one = self;
-  char name[256];
-  sbr_clip_play how = sbr_default_clip_play();
-  how.fade_s = (float)gd_as_float(arguments[1]);
-  int32_t clip = SBF_NONE;
-  UNUSED;
-  gd_as_text(arguments[0], name, sizeof name);
-  if (!one->world) return;
-  for (uint32_t i = 0; i < one->model->asset->clips.count; i++)
-    if (!strcmp(one->model->asset->clips.at[i].name, name) ||
-        !strcmp(one->model->asset->clips.at[i].id, name))
-      clip = (int32_t)i;
-  if (name[0] && clip == SBF_NONE)
-    soft_character_error(one, "play: the asset has no clip of that name: see SoftAsset.get_clip_names");
-  else
-    sbr_character_play_clip(one->world, one->id, 0, clip, &how);
-}
-
 /* Knocks the character over; it gets up by itself. */
 CALL(knock_over) {
   soft_character *one = self;
@@ -192,26 +171,10 @@ CALL(get_bone_lines) {
   free(bones);
 }
 
-#define TYPE(kind) GDEXTENSION_VARIANT_TYPE_##kind
-#define NOTHING                                                                                              \
-  false, {                                                                                                   \
-    "", TYPE(NIL), NULL                                                                                      \
-  }
-#define ANSWER(kind)                                                                                         \
-  true, {                                                                                                    \
-    "", TYPE(kind), NULL                                                                                     \
-  }
-#define NODE(of)                                                                                             \
-  true, {                                                                                                    \
-    "", TYPE(OBJECT), of                                                                                     \
-  }
-#define WITH(label, kind)                                                                                    \
-  { label, TYPE(kind), NULL }
 const gd_method soft_character_methods[] = {
     {"drive", drive, NOTHING, 3, {WITH("forward", FLOAT), WITH("sideways", FLOAT), WITH("turn", FLOAT)}},
     {"teleport", teleport, NOTHING, 2, {WITH("position", VECTOR3), WITH("heading", FLOAT)}},
     {"reset_pose", reset_pose, NOTHING, 0, {{0}}},
-    {"play", play, NOTHING, 2, {WITH("clip", STRING), WITH("fade", FLOAT)}},
     {"knock_over", knock_over, NOTHING, 0, {{0}}},
     {"get_travelled", get_travelled, ANSWER(FLOAT), 0, {{0}}},
     {"get_detail_level", get_detail_level, ANSWER(INT), 0, {{0}}},

@@ -2,6 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "clip_player.h"
+#include "physics_parts.h"
+#include "pose_driver.h"
+#include "sbrun/rigid.h"
 #include "soft_character.h"
 
 static void grow(sbf_vec3 *low, sbf_vec3 *high, const sbf_vec3_list *points) {
@@ -26,10 +30,13 @@ static void measure(soft_character *one) {
 
 void soft_character_unmake(soft_character *one) {
   character_mesh_free(one->mesh);
+  physics_parts_free(one->parts);
   shared_world_leave(one);
   physics_ground_free(one->ground);
   soft_model_release(one->model);
   one->mesh = NULL;
+  one->parts = NULL;
+  one->is_grabbed = false;
   one->ground = NULL;
   one->model = NULL;
   one->placed = false;
@@ -42,6 +49,7 @@ static bool make_world(soft_character *one) {
   gd_transform node_transform = one->put;
   one->scale = transform_scale(&node_transform);
   one->detail = SOFT_DETAIL_UNKNOWN;
+  one->posture = SBR_POSTURE_UPRIGHT;
   one->loose = soft_asset_is_loose(one->model->asset);
   measure(one);
   one->ground = physics_ground_make();
@@ -100,6 +108,7 @@ void soft_character_make(soft_character *one) {
     one->flat_y = one->put.origin.y;
   }
   soft_character_unmake(one);
+  pose_driver_forget(one);
   if (inside && asset && soft_asset_of(asset)) {
     const soft_settings *s = &one->settings;
     sbf_vec3 g = soft_asset_of(asset)->environment.gravity;
@@ -112,20 +121,25 @@ void soft_character_make(soft_character *one) {
     options.has_gravity = s->gravity_scale != 1;
     options.detail_levels = s->detail == SOFT_DETAIL_AUTOMATIC && !one->editor;
     options.gravity = (sbf_vec3){k * g.x, k * g.y, k * g.z};
-    one->model = soft_model_hold(asset, &options);
+    one->model = pose_driver_is_used(one) ? soft_model_hold_posed(asset, &options) : soft_model_hold(asset, &options);
     if (one->model && make_world(one)) {
       /* A bundle of the same structure keeps its state; another one begins at the same position. */
       if (kept.bytes && sbr_world_restore_snapshot(one->world, kept.bytes, kept.size) == SBF_OK) {
         one->placed = true;
         one->frame = frame;
         if (s->ground == SOFT_GROUND_PHYSICS) physics_ground_query(one);
-      } else
+      } else {
+        free(one->player);
+        one->player = NULL;
         one->placed = s->ground == SOFT_GROUND_FLAT;
+      }
+      clip_player_remade(one);
       soft_character_drive(one);
       one->still = false;
       soft_character_pause(one);
       one->mesh = character_mesh_make(one);
       character_skeleton_make(one);
+      soft_character_dress_parts(one);
       one->stale = true;
     } else
       soft_character_unmake(one);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "physics_parts.h"
 #include "soft_character.h"
 #include "turns.h"
 
@@ -70,6 +71,7 @@ double soft_character_ground_height(const soft_character *one, double x, double 
 
 void soft_character_set_position(soft_character *one, sbf_vec3 position, float heading) {
   one->put = upright(position, heading, one->scale);
+  one->last_origin = position;
   if (one->settings.ground == SOFT_GROUND_PHYSICS) {
     physics_bodies_query(one, true);
     physics_ground_query(one);
@@ -170,13 +172,15 @@ bool soft_character_prepare(soft_character *one) {
     one->displaced = true;
     one->tick = sbr_world_get_tick_count(one->world);
   }
-  if (!one->placed || (move.any && !steps)) {
+  bool placed = !one->placed || (move.any && !steps);
+  if (placed) {
     soft_character_set_position(one, now.origin, transform_heading(&now));
     one->placed = true;
   } else if (one->settings.ground == SOFT_GROUND_PHYSICS && !one->settings.paused) {
     physics_bodies_query(one, false);
   }
   soft_character_pause(one);
+  if (one->still && placed) physics_parts_move(one->parts, one);
   return !one->still;
 }
 
@@ -198,6 +202,7 @@ bool soft_character_rescale(soft_character *one) {
 
 void soft_character_show(soft_character *one) {
   soft_character_follow(one);
+  physics_parts_move(one->parts, one);
   character_skeleton_update(one);
   one->stale = true;
 }

@@ -1,5 +1,5 @@
 /* Properties of SoftCharacter3D in the inspector, and warnings of the editor. */
-#include "soft_character.h"
+#include "pose_driver.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +11,8 @@ void soft_character_asset_changed(void *self, const gd_variant *const *arguments
   soft_character_make(self);
 }
 
-static gd_variant changed_callable(soft_character *one) {
-  gd_variant made, method = gd_name("_asset_changed");
+gd_variant soft_character_callable(const soft_character *one, const char *name) {
+  gd_variant made, method = gd_name(name);
   GDExtensionConstVariantPtr given[2] = {&one->node, &method};
   GDExtensionCallError error;
   gd.variant_construct(GDEXTENSION_VARIANT_TYPE_CALLABLE, &made, given, 2, &error);
@@ -35,10 +35,10 @@ static void set_asset(void *self, const gd_variant *const *arguments, gd_variant
     return;
   }
   if (gd_as_object(&one->asset_value))
-    GD_DO(&one->asset_value, "disconnect", gd_name("changed"), changed_callable(one));
+    GD_DO(&one->asset_value, "disconnect", gd_name("changed"), soft_character_callable(one, "_asset_changed"));
   gd_assign(&one->asset_value, gd_copy(arguments[0]));
   if (gd_as_object(&one->asset_value))
-    GD_DO(&one->asset_value, "connect", gd_name("changed"), changed_callable(one));
+    GD_DO(&one->asset_value, "connect", gd_name("changed"), soft_character_callable(one, "_asset_changed"));
   soft_character_make(one);
   GD_DO(&one->node, "update_configuration_warnings");
 }
@@ -90,12 +90,15 @@ SETTING(forward_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
 SETTING(sideways_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
 SETTING(turn_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
 SETTING(vertical_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(max_turn_speed, float, 0, SOFT_MAX, (void)one)
 SETTING(gravity_scale, float, -SOFT_MAX, SOFT_MAX, soft_character_make(one))
 SETTING(paused, bool, 0, 1, soft_character_pause(one))
 SETTING(preview, bool, 0, 1, GD_DO(&one->node, "update_gizmos"))
 SETTING(mirror_skeleton, bool, 0, 1, soft_character_make(one))
 SETTING(ground, int, 0, 1, soft_character_make(one))
 SETTING(teleport_distance, float, 0, SOFT_MAX, (void)one)
+SETTING(collision_layer, int, INT32_MIN, UINT32_MAX, soft_character_dress_parts(one))
+SETTING(input_ray_pickable, bool, 0, 1, soft_character_dress_parts(one))
 SETTING(collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
 SETTING(push_bodies, bool, 0, 1, (void)one)
 SETTING(push_limit, float, 0, SOFT_MAX, (void)one)
@@ -104,12 +107,60 @@ SETTING(cast_shadow, int, 0, 3, character_mesh_dress(one->mesh, one))
 SETTING(layers, int, INT32_MIN, UINT32_MAX, character_mesh_dress(one->mesh, one))
 #undef SETTING
 
+static void get_velocity(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  (void)arguments;
+  gd_assign(result, gd_vector3(((soft_character *)self)->velocity));
+}
+
+static void set_velocity(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  soft_character *one = self;
+  sbf_vec3 v = gd_as_vector3(arguments[0]);
+  (void)result;
+  if (soft_character_fits(one, "velocity", (double)v.x, -SOFT_MAX, SOFT_MAX) &&
+      soft_character_fits(one, "velocity", (double)v.y, -SOFT_MAX, SOFT_MAX) &&
+      soft_character_fits(one, "velocity", (double)v.z, -SOFT_MAX, SOFT_MAX))
+    one->velocity = v;
+}
+
+/* Made again where the asset with the clip is needed, or no longer. */
+static void get_pose_source(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  const soft_character *one = self;
+  (void)arguments;
+  gd_assign(result, one->pose ? gd_copy(&one->pose->path) : gd_empty(GDEXTENSION_VARIANT_TYPE_NODE_PATH));
+}
+
+static void set_pose_source(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  soft_character *one = self;
+  pose_driver *pose = pose_driver_of(one);
+  (void)result;
+  if (!pose) return;
+  gd_assign(&pose->path, gd_copy(arguments[0]));
+  pose_driver_forget(one);
+  pose->warned = false;
+  if (one->model && pose_driver_is_used(one) != (soft_model_pose(one->model) != NULL)) soft_character_make(one);
+}
+
+static void get_pose_weight(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  const soft_character *one = self;
+  (void)arguments;
+  gd_assign(result, gd_float(one->pose ? one->pose->weight : 1));
+}
+
+static void set_pose_weight(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  soft_character *one = self;
+  double weight = gd_as_float(arguments[0]);
+  (void)result;
+  if (!soft_character_fits(one, "pose_weight", weight, 0, 1) || !pose_driver_of(one)) return;
+  one->pose->weight = weight;
+}
+
 enum {
   HINT_RANGE = 1,
   HINT_ENUM = 2,
   HINT_LAYERS_3D_RENDER = 10,
   HINT_LAYERS_3D_PHYSICS = 11,
-  HINT_RESOURCE_TYPE = 17
+  HINT_RESOURCE_TYPE = 17,
+  HINT_NODE_PATH_VALID_TYPES = 26
 };
 
 #define GROUP(title)                                                                                         \
@@ -144,6 +195,11 @@ const gd_property soft_character_properties[] = {
         "turn_speed", FLOAT, HINT_RANGE, "-3.2,3.2,0.01,or_less,or_greater,suffix:rad/s", "get_", turn_speed),
     SHOWN("vertical_speed", FLOAT, HINT_RANGE, "-5,5,0.01,or_less,or_greater,suffix:m/s", "get_",
         vertical_speed),
+    SHOWN("velocity", VECTOR3, 0, "suffix:m/s", "get_", velocity),
+    SHOWN("max_turn_speed", FLOAT, HINT_RANGE, "0,10,0.01,or_greater,suffix:rad/s", "get_", max_turn_speed),
+    GROUP("Animation"),
+    SHOWN("pose_source", NODE_PATH, HINT_NODE_PATH_VALID_TYPES, "Skeleton3D", "get_", pose_source),
+    SHOWN("pose_weight", FLOAT, HINT_RANGE, "0,1,0.01", "get_", pose_weight),
     GROUP("Simulation"),
     CHOICE("scheme", "SoftCharacter3D.Scheme",
         "Automatic,Symplectic,Position Based,Relaxation,Explicit Euler,Heun,Block Descent", scheme),
@@ -159,7 +215,9 @@ const gd_property soft_character_properties[] = {
     CHOICE("ground", "SoftCharacter3D.Ground", "Physics Space,Flat", ground),
     GROUP("Collision"),
     SHOWN("teleport_distance", FLOAT, HINT_RANGE, "0,10,0.01,or_greater,suffix:m", "get_", teleport_distance),
+    SHOWN("collision_layer", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_layer),
     SHOWN("collision_mask", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_mask),
+    SHOWN("input_ray_pickable", BOOL, 0, NULL, "is_", input_ray_pickable),
     SHOWN("push_bodies", BOOL, 0, NULL, "is_", push_bodies),
     SHOWN("push_limit", FLOAT, HINT_RANGE, "0,20,0.1,or_greater,suffix:m/s", "get_", push_limit),
     SHOWN("meet_others", BOOL, 0, NULL, "is_", collide_with_others),

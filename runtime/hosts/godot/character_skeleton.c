@@ -4,20 +4,12 @@
 #include "soft_character.h"
 #include "turns.h"
 
-static gd_transform transform(sbf_quat q, sbf_vec3 at) {
-  float x = q.x, y = q.y, z = q.z, w = q.w;
-  return (gd_transform){{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}},
-      at};
-}
-
 /* Frame of a bone relative to its parent; without a parent, relative to the skeleton. */
 static gd_transform local(const sbr_transform *bones, int32_t parent, uint32_t bone) {
-  if (parent < 0) return transform(bones[bone].rotation, bones[bone].position);
+  if (parent < 0) return placed_at(bones[bone].rotation, bones[bone].position);
   sbf_quat back = turn_back(bones[parent].rotation);
   sbf_vec3 a = bones[parent].position, b = bones[bone].position;
-  return transform(
+  return placed_at(
       turn_product(back, bones[bone].rotation), turned(back, (sbf_vec3){b.x - a.x, b.y - a.y, b.z - a.z}));
 }
 

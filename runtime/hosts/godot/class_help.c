@@ -55,6 +55,16 @@ static const char *type_name(GDExtensionVariantType type, const char *class_name
     return "String";
   case GDEXTENSION_VARIANT_TYPE_VECTOR3:
     return "Vector3";
+  case GDEXTENSION_VARIANT_TYPE_NODE_PATH:
+    return "NodePath";
+  case GDEXTENSION_VARIANT_TYPE_RID:
+    return "RID";
+  case GDEXTENSION_VARIANT_TYPE_ARRAY:
+    return "Array";
+  case GDEXTENSION_VARIANT_TYPE_DICTIONARY:
+    return "Dictionary";
+  case GDEXTENSION_VARIANT_TYPE_TRANSFORM3D:
+    return "Transform3D";
   case GDEXTENSION_VARIANT_TYPE_AABB:
     return "AABB";
   case GDEXTENSION_VARIANT_TYPE_OBJECT:
@@ -80,8 +90,9 @@ static const char *word_of(const gd_class *form, const gd_help *words, const cha
 }
 
 static bool has_name(const gd_class *form, const char *name) {
-  for (const gd_method *one = form->methods; one && one->name; one++)
-    if (!strcmp(one->name, name)) return true;
+  const gd_method *method;
+  for (uint32_t i = 0; (method = gd_class_method(form, i)) != NULL; i++)
+    if (!strcmp(method->name, name)) return true;
   for (const gd_property *one = form->properties; one && one->name; one++)
     if (one->get && !strcmp(one->name, name)) return true;
   for (const gd_signal *one = form->signals; one && one->name; one++)
@@ -104,12 +115,13 @@ static void write_arguments(text *to, const gd_argument *arguments, uint32_t cou
 
 static void write_members(text *to, const gd_class *form, const gd_help *words) {
   write(to, "<methods>");
-  for (const gd_method *one = form->methods; one && one->name; one++) {
-    if (one->name[0] == '_') continue;
-    write(to, "<method name=\"%s\"><return type=\"%s\" />", one->name,
-        one->answers ? type_name(one->result.type, one->result.class_name) : "void");
-    write_arguments(to, one->arguments, one->count);
-    write(to, "<description>%s</description></method>", word_of(form, words, one->name));
+  const gd_method *method;
+  for (uint32_t i = 0; (method = gd_class_method(form, i)) != NULL; i++) {
+    if (method->name[0] == '_') continue;
+    write(to, "<method name=\"%s\"><return type=\"%s\" />", method->name,
+        method->answers ? type_name(method->result.type, method->result.class_name) : "void");
+    write_arguments(to, method->arguments, method->count);
+    write(to, "<description>%s</description></method>", word_of(form, words, method->name));
   }
   write(to, "</methods><members>");
   for (const gd_property *one = form->properties; one && one->name; one++)

@@ -61,6 +61,14 @@ void *gd_class_instance(const gd_class *form, GDExtensionObjectPtr object) {
 
 /* ---- Calls ---- */
 
+static uint32_t optional_count(const gd_method *method) {
+  uint32_t count = 0;
+  while (count < method->count &&
+         method->arguments[method->count - 1 - count].type == GDEXTENSION_VARIANT_TYPE_NIL)
+    count++;
+  return count;
+}
+
 static void call_values(void *userdata, GDExtensionClassInstancePtr made,
     const GDExtensionConstVariantPtr *arguments, GDExtensionInt count, GDExtensionVariantPtr result,
     GDExtensionCallError *error) {
@@ -68,13 +76,15 @@ static void call_values(void *userdata, GDExtensionClassInstancePtr made,
   const gd_variant *given[MAX_ARGUMENTS] = {0};
   gd_variant answer = gd_nil();
   error->error = GDEXTENSION_CALL_OK;
-  if (count != (GDExtensionInt)method->count) {
-    error->error = count < (GDExtensionInt)method->count ? GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS
-                                                         : GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS;
+  GDExtensionInt required = (GDExtensionInt)(method->count - optional_count(method));
+  if (count < required || count > (GDExtensionInt)method->count) {
+    error->error = count < required ? GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS
+                                    : GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS;
     error->expected = (int32_t)method->count;
     return;
   }
-  for (uint32_t i = 0; i < method->count; i++) given[i] = arguments[i];
+  gd_variant nil = gd_nil();
+  for (uint32_t i = 0; i < method->count; i++) given[i] = i < (uint32_t)count ? arguments[i] : &nil;
   method->run(((instance *)made)->self, given, &answer);
   if (result) gd.variant_new_copy(result, &answer);
   gd_free(&answer);
@@ -169,6 +179,9 @@ static void register_method(const gd_class *form, const gd_method *method) {
     describe_argument(&arguments[i], &method->arguments[i]);
     infos[i] = arguments[i].info;
   }
+  gd_variant nil = gd_nil();
+  GDExtensionVariantPtr defaults[MAX_ARGUMENTS];
+  for (uint32_t i = 0; i < optional_count(method); i++) defaults[i] = &nil;
   describe_argument(&result, &method->result);
   gd.classdb_register_extension_class_method(gd.library, gd_string_name(form->name),
       &(GDExtensionClassMethodInfo){.name = (GDExtensionStringNamePtr)(uintptr_t)gd_string_name(method->name),
@@ -180,7 +193,9 @@ static void register_method(const gd_class *form, const gd_method *method) {
           .return_value_info = &result.info,
           .argument_count = method->count,
           .arguments_info = infos,
-          .arguments_metadata = metadata});
+          .arguments_metadata = metadata,
+          .default_argument_count = optional_count(method),
+          .default_arguments = defaults});
   for (uint32_t i = 0; i < method->count; i++) undescribe(&arguments[i]);
   undescribe(&result);
 }
@@ -236,6 +251,13 @@ static void register_signal(const gd_class *form, const gd_signal *signal) {
   for (uint32_t i = 0; i < signal->count; i++) undescribe(&arguments[i]);
 }
 
+const gd_method *gd_class_method(const gd_class *form, uint32_t number) {
+  for (const gd_method *const *table = form->methods; table && *table; table++)
+    for (const gd_method *one = *table; one->name; one++)
+      if (!number--) return one;
+  return NULL;
+}
+
 void gd_class_register(const gd_class *form) {
   GDExtensionConstStringNamePtr name = gd_string_name(form->name);
   gd.classdb_register_extension_class5(gd.library, name, gd_string_name(form->parent),
@@ -246,7 +268,8 @@ void gd_class_register(const gd_class *form) {
           .get_virtual_call_data_func = find_virtual,
           .call_virtual_with_data_func = call_virtual,
           .class_userdata = (void *)(uintptr_t)form});
-  for (const gd_method *one = form->methods; one && one->name; one++) register_method(form, one);
+  const gd_method *method;
+  for (uint32_t i = 0; (method = gd_class_method(form, i)) != NULL; i++) register_method(form, method);
   for (const gd_property *one = form->properties; one && one->name; one++) register_property(form, one);
   for (const gd_signal *one = form->signals; one && one->name; one++) register_signal(form, one);
   for (const gd_constant *one = form->constants; one && one->name; one++)

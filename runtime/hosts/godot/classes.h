@@ -15,7 +15,7 @@ typedef struct gd_argument {
   const char *class_name;      /* of an object, or CLASS.ENUM for an INT; NULL: any */
 } gd_argument;
 
-/* A method. In a table of virtual methods the name is Godot's, with its underscore. */
+/* A method. Its last arguments may be left out if they are of type NIL: they are nil then. In a table of virtual methods the name is Godot's, with its underscore. */
 typedef struct gd_method {
   const char *name;
   gd_function *run;
@@ -58,7 +58,8 @@ typedef struct gd_class {
   void (*begin)(void *self, GDExtensionObjectPtr object);  /* may be NULL */
   void (*end)(void *self);                                 /* may be NULL */
   void (*notify)(void *self, int32_t what, bool reversed); /* may be NULL */
-  const gd_method *methods, *virtuals;
+  const gd_method *const *methods; /* tables; NULL ends them */
+  const gd_method *virtuals;
   const gd_property *properties;
   const gd_signal *signals;
   const gd_constant *constants;
@@ -66,6 +67,8 @@ typedef struct gd_class {
 
 void gd_class_register(const gd_class *form);
 void gd_class_unregister(const gd_class *form);
+/* A method by its number, from 0, across the tables; NULL: there are fewer. */
+const gd_method *gd_class_method(const gd_class *form, uint32_t number);
 /* A new instance: the object, whose value is freed with its last reference. */
 gd_variant gd_class_new(const gd_class *form);
 /* Instance data of `size` bytes of an object; NULL if it is not of that class. */

@@ -20,6 +20,7 @@
   X(variant_call, VariantCall)                                                                               \
   X(variant_construct, VariantConstruct)                                                                     \
   X(variant_get_keyed, VariantGetKeyed)                                                                      \
+  X(variant_set_keyed, VariantSetKeyed)                                                                      \
   X(variant_get_indexed, VariantGetIndexed)                                                                  \
   X(variant_set_indexed, VariantSetIndexed)                                                                  \
   X(variant_get_object_instance_id, VariantGetObjectInstanceId)                                              \

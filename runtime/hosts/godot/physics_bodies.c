@@ -8,6 +8,7 @@
 
 #include "physics_kinds.h"
 #include "physics_mass.h"
+#include "physics_parts.h"
 #include "soft_character.h"
 #include "turns.h"
 
@@ -216,6 +217,23 @@ static mirrored *find_unused(physics_bodies *bodies, sbr_world *world) {
   return oldest;
 }
 
+/* Whether Godot's engine may move it, perhaps later. */
+static bool is_movable(const gd_variant *server, const mirrored *at) {
+  gd_variant object = gd_object(gd.object_get_instance_from_id(at->object));
+  bool movable = body_is_rigid(server, &at->handle) ||
+                 (gd_as_object(&object) && gd_take_bool(GD_CALL(&object, "is_class", gd_string("RigidBody3D"))));
+  gd_free(&object);
+  return movable;
+}
+
+void physics_bodies_except(const physics_bodies *bodies, physics_parts *parts) {
+  gd_variant server = gd_singleton("PhysicsServer3D");
+  for (uint32_t i = 0; i < MAX; i++)
+    if (bodies->each[i].body && is_movable(&server, &bodies->each[i]))
+      physics_parts_except(parts, &bodies->each[i].handle, true);
+  gd_free(&server);
+}
+
 /* Adds a body's shape that is new. */
 static void adopt(soft_character *one, const gd_variant *server, const gd_variant *handle, int64_t index,
     const gd_variant *object) {
@@ -235,6 +253,7 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
       .handle = gd_copy(handle),
       .object = gd.variant_get_object_instance_id(object),
       .seen = bodies->frame};
+  if (is_movable(server, unused)) shared_world_except(one->shared, handle);
   unused->shape = physics_shape_of(server, handle, index, object, &unused->inner);
   if (one->settings.push_bodies) unused->mass = body_mass_of(server, handle);
   if (unused->shape) make_collider(bodies, one->world, server, unused);

@@ -59,7 +59,7 @@ static bool finds_floor(const soft_character *one, const gd_variant *space, doub
     gd_variant hit = GD_CALL(space, "intersect_ray", gd_copy(query));
     bool any = gd_size(&hit) > 0;
     gd_variant object = any ? gd_key(&hit, "collider") : gd_nil();
-    found = any && !body_is_below(&one->node, &object);
+    found = any && !body_is_passed(&one->node, &object);
     if (any && !found) GD_DO(&passed, "push_back", gd_key(&hit, "rid"));
     gd_free(&object);
     gd_free(&hit);

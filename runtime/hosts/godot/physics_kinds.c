@@ -15,7 +15,12 @@ bool body_is_static(const gd_variant *server, const gd_variant *body) {
   return mode_of(server, body) == MODE_STATIC;
 }
 
-bool body_is_below(const gd_variant *node, const gd_variant *object) {
-  return gd_as_object(object) && gd_take_bool(GD_CALL(object, "is_class", gd_string("Node"))) &&
-         gd_take_bool(GD_CALL(node, "is_ancestor_of", gd_copy(object)));
+static bool is_class(const gd_variant *object, const char *name) {
+  return gd_take_bool(GD_CALL(object, "is_class", gd_string(name)));
+}
+
+bool body_is_passed(const gd_variant *node, const gd_variant *object) {
+  if (!gd_as_object(object) || !is_class(object, "Node")) return false;
+  return is_class(object, "SoftCharacter3D") || gd_take_bool(GD_CALL(node, "is_ancestor_of", gd_copy(object))) ||
+         (is_class(object, "CharacterBody3D") && gd_take_bool(GD_CALL(object, "is_ancestor_of", gd_copy(node))));
 }

@@ -4,9 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "clip_player.h"
+#include "contact_list.h"
 #include "physics_kinds.h"
+#include "physics_parts.h"
+#include "pose_driver.h"
 #include "sbrun/detail.h"
-#include "sbrun/events.h"
 #include "soft_character.h"
 
 enum {
@@ -22,6 +25,7 @@ struct shared_world {
   double tick_s;
   sbr_world *world;
   physics_bodies *bodies;
+  contact_list contacts;
   soft_character *members[MAX];
   uint32_t count, holders; /* nodes; nodes and users */
   int64_t frame;           /* last stepped */
@@ -122,81 +126,36 @@ uint32_t shared_world_count(const shared_world *shared) {
   return shared->count;
 }
 
+soft_character *shared_world_at(const shared_world *shared, uint32_t index) {
+  return shared->members[index];
+}
+
+sbr_world *shared_world_get(const shared_world *shared) {
+  return shared->world;
+}
+
+const physics_bodies *shared_world_bodies(const shared_world *shared) {
+  return shared->bodies;
+}
+
 bool shared_world_has(const shared_world *shared, const gd_variant *object) {
   for (uint32_t i = 0; i < shared->count; i++)
-    if (body_is_below(&shared->members[i]->node, object)) return true;
+    if (body_is_passed(&shared->members[i]->node, object)) return true;
   return false;
 }
 
-/* ---- Events ---- */
+const contact_list *shared_world_contacts(const shared_world *shared) {
+  return &shared->contacts;
+}
 
-static soft_character *member_of(const shared_world *shared, sbr_character_id id) {
+soft_character *shared_world_member(const shared_world *shared, sbr_character_id id) {
   for (uint32_t i = 0; id.value && i < shared->count; i++)
     if (shared->members[i]->id.value == id.value) return shared->members[i];
   return NULL;
 }
 
-static gd_variant variant_of(sbr_double3 position) {
-  return gd_vector3((sbf_vec3){(float)position.x, (float)position.y, (float)position.z});
-}
-
-static void emit_contact(const gd_variant *node, int32_t soft_body, const gd_variant *at, sbf_vec3 normal,
-    float impulse, gd_variant with) {
-  GD_DO(node, "emit_signal", gd_name("contact"), gd_int(soft_body), gd_copy(at), gd_vector3(normal),
-      gd_float((double)impulse), with);
-}
-
-/* Both nodes emit the signal. Handlers may free any node. */
-static void emit_contacts(shared_world *shared, const sbr_contact_event *e) {
-  soft_character *one = member_of(shared, e->a.character), *other = member_of(shared, e->b.character);
-  gd_variant at = variant_of(e->position);
-  sbf_vec3 n = e->normal, back = {-n.x, -n.y, -n.z};
-  if (one && one != other)
-    emit_contact(&one->node, e->a.soft_body, &at, n, e->impulse,
-        other ? gd_object(gd_as_object(&other->node)) : physics_bodies_object(shared->bodies, e->b.collider));
-  one = member_of(shared, e->a.character), other = member_of(shared, e->b.character);
-  if (other && one != other)
-    emit_contact(&other->node, e->b.soft_body, &at, back, e->impulse,
-        gd_object(one ? gd_as_object(&one->node) : NULL));
-  gd_free(&at);
-}
-
-/* A signal with a number and a position; without the number where `index` is negative. */
-static void emit_at(shared_world *shared, sbr_character_id character, const char *signal, int64_t index,
-    sbr_double3 position) {
-  soft_character *one = member_of(shared, character);
-  if (!one) return;
-  gd_variant at = variant_of(position);
-  if (index < 0)
-    GD_DO(&one->node, "emit_signal", gd_name(signal), gd_copy(&at));
-  else
-    GD_DO(&one->node, "emit_signal", gd_name(signal), gd_int(index), gd_copy(&at));
-  gd_free(&at);
-}
-
-/* Handlers may step the world, which empties the arrays: they are fetched for each event. */
-static void report_events(shared_world *shared) {
-  const sbr_world *world = shared->world;
-  for (uint32_t i = 0; i < sbr_world_get_foot_events(world).down_count; i++) {
-    sbr_foot_event e = sbr_world_get_foot_events(world).down[i];
-    emit_at(shared, e.character, "foot_down", e.leg, e.position);
-  }
-  for (uint32_t i = 0; i < sbr_world_get_foot_events(world).up_count; i++) {
-    sbr_foot_event e = sbr_world_get_foot_events(world).up[i];
-    emit_at(shared, e.character, "foot_up", e.leg, e.position);
-  }
-  for (uint32_t i = 0; i < sbr_world_get_foot_events(world).landed_count; i++) {
-    sbr_foot_event e = sbr_world_get_foot_events(world).landed[i];
-    emit_at(shared, e.character, "landed", -1, e.position);
-  }
-  for (uint32_t i = 0; i < sbr_world_get_tear_events(world).torn_count; i++) {
-    sbr_soft_body_event e = sbr_world_get_tear_events(world).torn[i];
-    emit_at(shared, e.character, "torn", e.soft_body, e.position);
-  }
-  for (uint32_t i = 0; i < sbr_world_get_contact_events(world).begin_count; i++) {
-    sbr_contact_event e = sbr_world_get_contact_events(world).begin[i];
-    emit_contacts(shared, &e);
-  }
+void shared_world_except(const shared_world *shared, const gd_variant *body) {
+  for (uint32_t i = 0; i < shared->count; i++) physics_parts_except(shared->members[i]->parts, body, true);
 }
 
 /* ---- A frame ---- */
@@ -245,12 +204,21 @@ void shared_world_step(soft_character *one) {
     any = (moves[i] = soft_character_prepare(shared->members[i])) || any;
   if (!any) return;
   update_detail(shared);
+  for (uint32_t i = 0; i < shared->count; i++) {
+    clip_player_prepare(shared->members[i], frame_s);
+    pose_driver_prepare(shared->members[i], frame_s);
+  }
   physics_bodies_move(shared->bodies, shared->world, frame_s, one->settings.push_bodies);
   sbr_world_step(shared->world, (double)frame_s);
   physics_bodies_push(shared->bodies, shared->world, &one->settings);
+  for (uint32_t i = 0; i < shared->count; i++) clip_player_advance(shared->members[i]);
   for (uint32_t i = 0; i < shared->count; i++)
-    if (moves[i]) soft_character_show(shared->members[i]);
+    if (moves[i]) {
+      soft_character_show(shared->members[i]);
+      soft_character_measure_velocity(shared->members[i], frame_s);
+    }
+  contact_list_update(&shared->contacts, shared->world);
   shared->holders++;
-  report_events(shared);
+  world_events_report(shared);
   release(shared);
 }

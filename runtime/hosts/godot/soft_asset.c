@@ -45,37 +45,56 @@ static void name_of(const soft_asset *asset, char *name, size_t size) {
   gd_free(&value);
 }
 
-soft_model *soft_model_hold(soft_asset *asset, const sbr_model_options *options) {
+/* A new model; `posed`: of its own copy of the asset. */
+static soft_model *make_model(soft_asset *asset, const sbr_model_options *options, bool posed) {
   soft_content *content = asset->content;
-  sbf_diagnostic error;
-  if (!content) return NULL;
-  for (soft_model *one = content->models; one; one = one->next)
-    if (same_options(&one->options, options)) return one->holders++, one;
+  sbf_diagnostic error = {.message = "no memory for a model"};
   soft_model *made = calloc(1, sizeof *made);
-  if (!made || sbr_model_create(content->asset, options, &made->model, &error) != SBF_OK) {
+  bool good = made && (!posed || pose_clip_make(&made->pose, content->asset));
+  if (good) made->asset = posed ? made->pose.asset : content->asset;
+  if (!good || sbr_model_create(made->asset, options, &made->model, &error) != SBF_OK) {
     char name[512], message[sizeof error.message + 2 * sizeof name];
     name_of(asset, name, sizeof name);
-    snprintf(message, sizeof message, "%s: %s", name, made ? error.message : "no memory for a model");
+    snprintf(message, sizeof message, "%s: %s", name, error.message);
     gd_error(message);
+    if (made) pose_clip_free(&made->pose);
     free(made);
     return NULL;
   }
   made->content = content;
-  made->asset = content->asset;
   made->options = *options;
   made->holders = 1;
-  made->next = content->models;
-  content->models = made;
   content->holders++;
   return made;
+}
+
+soft_model *soft_model_hold(soft_asset *asset, const sbr_model_options *options) {
+  soft_content *content = asset->content;
+  if (!content) return NULL;
+  for (soft_model *one = content->models; one; one = one->next)
+    if (same_options(&one->options, options)) return one->holders++, one;
+  soft_model *made = make_model(asset, options, false);
+  if (!made) return NULL;
+  made->next = content->models;
+  content->models = made;
+  return made;
+}
+
+soft_model *soft_model_hold_posed(soft_asset *asset, const sbr_model_options *options) {
+  return asset->content ? make_model(asset, options, true) : NULL;
+}
+
+pose_clip *soft_model_pose(soft_model *model) {
+  return model->pose.asset ? &model->pose : NULL;
 }
 
 void soft_model_release(soft_model *model) {
   if (!model || --model->holders) return;
   soft_model **link = &model->content->models;
-  while (*link != model) link = &(*link)->next;
-  *link = model->next;
+  while (*link && *link != model) link = &(*link)->next;
+  if (*link) *link = model->next;
   sbr_model_destroy(model->model);
+  pose_clip_free(&model->pose);
   content_release(model->content);
   free(model);
 }
@@ -179,6 +198,8 @@ NAMES(bones)
 NAMES(soft_bodies)
 NAMES(render_meshes)
 NAMES(clips)
+NAMES(bone_masks)
+NAMES(ik_chains)
 #undef NAMES
 
 /* Adds a sentence for each part that the runtime ignores. */
@@ -204,6 +225,8 @@ static const gd_method methods[] = {
     {"get_soft_body_names", soft_bodies_names, STRINGS, 0, {{0}}},
     {"get_render_mesh_names", render_meshes_names, STRINGS, 0, {{0}}},
     {"get_clip_names", clips_names, STRINGS, 0, {{0}}},
+    {"get_bone_mask_names", bone_masks_names, STRINGS, 0, {{0}}},
+    {"get_ik_chain_names", ik_chains_names, STRINGS, 0, {{0}}},
     {"get_left_out", get_left_out, STRINGS, 0, {{0}}},
     {0},
 };
@@ -227,6 +250,6 @@ const gd_class soft_asset_class = {
     .size = sizeof(soft_asset),
     .begin = begin,
     .end = end,
-    .methods = methods,
+    .methods = (const gd_method *const[]){methods, NULL},
     .properties = properties,
 };

@@ -7,6 +7,7 @@
 #define SBFMT_GODOT_SOFT_ASSET_H
 
 #include "classes.h"
+#include "pose_clip.h"
 
 /* A bundle and one model of it, shared by all characters with the same settings; reference counted. */
 typedef struct soft_content soft_content;
@@ -15,6 +16,7 @@ typedef struct soft_model {
   sbr_model *model;
   const sbf_asset *asset;
   sbr_model_options options;
+  pose_clip pose; /* of the one character that has it; else without an asset */
   uint32_t holders;
   struct soft_model *next;
 } soft_model;
@@ -28,6 +30,9 @@ extern const gd_class soft_asset_class;
 
 /* NULL if the resource is empty or the model cannot be created, which is then in Godot's log. */
 soft_model *soft_model_hold(soft_asset *asset, const sbr_model_options *options);
+/* A model of a copy of the asset with a clip that its character writes. */
+soft_model *soft_model_hold_posed(soft_asset *asset, const sbr_model_options *options);
+pose_clip *soft_model_pose(soft_model *model); /* NULL: it has none */
 void soft_model_release(soft_model *model); /* NULL does nothing */
 /* Storage for the StandardMaterial3D and the ImageTexture with those indices of the asset, shared by all
  * nodes: nil until the caller has set them. NULL without memory or such an index. Main thread only. */

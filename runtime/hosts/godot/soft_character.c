@@ -1,6 +1,7 @@
-#include "soft_character.h"
+#include "pose_driver.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 /* Godot's notifications of a node. */
 enum {
@@ -61,9 +62,11 @@ static void begin(void *self, GDExtensionObjectPtr object) {
   one->settings = (soft_settings){.gravity_scale = 1,
       .mirror_skeleton = true,
       .use_threads = true,
+      .collision_layer = 1,
       .collision_mask = 1,
       .push_bodies = true,
       .push_limit = 5,
+      .max_turn_speed = 3,
       .cast_shadow = 1,
       .layers = 1};
   gd_free(&engine);
@@ -72,6 +75,8 @@ static void begin(void *self, GDExtensionObjectPtr object) {
 static void end(void *self) {
   soft_character *one = self;
   soft_character_unmake(one);
+  free(one->player);
+  pose_driver_free(one);
   gd_free(&one->asset_value);
   gd_free(&one->material);
   gd_free(&one->node);
@@ -82,10 +87,25 @@ static void end(void *self) {
 static const gd_signal signals[] = {
     {"foot_down", 2, {ARGUMENT("leg", INT), ARGUMENT("position", VECTOR3)}},
     {"foot_up", 2, {ARGUMENT("leg", INT), ARGUMENT("position", VECTOR3)}},
+    {"animation_finished", 1, {ARGUMENT("clip", STRING)}},
     {"landed", 1, {ARGUMENT("position", VECTOR3)}},
     {"contact", 5,
         {ARGUMENT("soft_body", INT), ARGUMENT("position", VECTOR3), ARGUMENT("normal", VECTOR3),
             ARGUMENT("impulse", FLOAT), ARGUMENT("with", OBJECT)}},
+    {"input_event", 5,
+        {{"camera", GDEXTENSION_VARIANT_TYPE_OBJECT, "Node"}, {"event", GDEXTENSION_VARIANT_TYPE_OBJECT, "InputEvent"},
+            ARGUMENT("position", VECTOR3), ARGUMENT("normal", VECTOR3), ARGUMENT("shape", INT)}},
+    {"mouse_entered", 0, {{0}}},
+    {"mouse_exited", 0, {{0}}},
+    {"contact_ended", 2, {ARGUMENT("soft_body", INT), ARGUMENT("with", OBJECT)}},
+    {"struck", 5,
+        {ARGUMENT("soft_body", INT), ARGUMENT("position", VECTOR3), ARGUMENT("normal", VECTOR3),
+            ARGUMENT("speed", FLOAT), ARGUMENT("with", OBJECT)}},
+    {"fell_asleep", 2, {ARGUMENT("soft_body", INT), ARGUMENT("position", VECTOR3)}},
+    {"woke", 2, {ARGUMENT("soft_body", INT), ARGUMENT("position", VECTOR3)}},
+    {"fell", 0, {{0}}},
+    {"rising", 0, {{0}}},
+    {"rose", 0, {{0}}},
     {"torn", 2, {ARGUMENT("soft_body", INT), ARGUMENT("position", VECTOR3)}},
     {0},
 };
@@ -105,6 +125,10 @@ static const gd_constant constants[] = {
     {0},
 };
 
+static const gd_method *const method_tables[] = {soft_character_methods, soft_character_part_methods,
+    soft_character_grab_methods, soft_character_animation_methods, soft_character_pose_methods,
+    soft_character_movement_methods, NULL};
+
 const gd_class soft_character_class = {
     .name = "SoftCharacter3D",
     .parent = "Node3D",
@@ -112,7 +136,7 @@ const gd_class soft_character_class = {
     .begin = begin,
     .end = end,
     .notify = notify,
-    .methods = soft_character_methods,
+    .methods = method_tables,
     .virtuals = soft_character_virtuals,
     .properties = soft_character_properties,
     .signals = signals,

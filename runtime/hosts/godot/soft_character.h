@@ -34,10 +34,12 @@ typedef struct soft_settings {
   int64_t detail;                  /* a soft_detail */
   bool free_bodies, hold_pose, use_threads;
   double forward_speed, sideways_speed, turn_speed, vertical_speed; /* m/s, m/s, rad/s, m/s */
+  double max_turn_speed;                                           /* rad/s of move_and_slide; 0: it keeps its heading */
   double gravity_scale;
   bool paused, preview, mirror_skeleton;
   int64_t ground;           /* a soft_ground */
-  int64_t collision_mask;   /* physics layers that it collides with */
+  int64_t collision_layer, collision_mask; /* physics layers it is on, and that it collides with */
+  bool input_ray_pickable;
   double teleport_distance; /* m: a node that is moved farther in a frame is placed there; 0: half its size */
   bool push_bodies;
   bool collide_with_others;    /* contacts with other nodes of the physics space */
@@ -48,7 +50,17 @@ typedef struct soft_settings {
 typedef struct character_mesh character_mesh;
 typedef struct physics_ground physics_ground;
 typedef struct physics_bodies physics_bodies;
+typedef struct physics_parts physics_parts;
 typedef struct shared_world shared_world;
+typedef struct contact_list contact_list;
+typedef struct clip_player clip_player;
+typedef struct pose_driver pose_driver;
+
+/* A vertex of a soft body's surface. */
+typedef struct surface_vertex {
+  uint32_t soft_body, vertex;
+  sbf_vec3 position; /* m */
+} surface_vertex;
 
 typedef struct soft_character {
   gd_variant node;        /* itself, without a reference */
@@ -83,6 +95,14 @@ typedef struct soft_character {
   gd_variant skeleton; /* Skeleton3D; nil: none */
   physics_ground *ground;
   physics_bodies *bodies; /* the shared world's */
+  physics_parts *parts;   /* NULL: none */
+  bool is_grabbed;        /* by a script: */
+  surface_vertex grabbed; /* its position: from the grabbed point */
+  clip_player *player;    /* NULL: nothing was played */
+  pose_driver *pose;      /* NULL: nothing was posed */
+  sbf_vec3 velocity, real_velocity, wanted_velocity; /* m/s: of a script; measured; at the last move_and_slide */
+  sbf_vec3 last_origin;                              /* of the node after the last step */
+  int64_t posture;        /* sbr_posture after the last step */
 } soft_character;
 
 /* Logs an error with the node's name. */
@@ -142,8 +162,32 @@ bool soft_character_set_loose_position(soft_character *one);
 /* Whether a number may be set; otherwise it does not change, with an error in the log. */
 bool soft_character_fits(const soft_character *one, const char *name, double value, double low, double high);
 #define SOFT_MAX 1e4 /* maximum of numbers with a unit */
+/* A Callable of one of its methods. */
+gd_variant soft_character_callable(const soft_character *one, const char *method);
 /* Called when the resource has changed: the character takes its new content. */
 gd_function soft_character_asset_changed;
+
+/* ---- character_parts.c ---- */
+
+/* Creates or frees the parts by the settings. */
+void soft_character_dress_parts(soft_character *one);
+/* Index of the bone of a name; -1: none. */
+int32_t soft_character_bone(const soft_character *one, const gd_variant *name);
+extern const gd_method soft_character_part_methods[];
+
+/* ---- character_grab.c ---- */
+
+extern const gd_method soft_character_grab_methods[];
+
+/* ---- character_animation.c ---- */
+
+extern const gd_method soft_character_animation_methods[];
+
+/* ---- character_movement.c ---- */
+
+/* After a step. */
+void soft_character_measure_velocity(soft_character *one, float frame_s);
+extern const gd_method soft_character_movement_methods[];
 
 /* ---- character_soft.c ---- */
 
@@ -192,6 +236,8 @@ void physics_bodies_query(soft_character *one, bool now);
 /* Once per step: moves the present colliders; and applies the impulses of the step to the bodies. */
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes);
 void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings);
+/* Adds the movable bodies to the exceptions of a character's parts. */
+void physics_bodies_except(const physics_bodies *bodies, physics_parts *parts);
 /* The object of a collider, or null. */
 gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider);
 
@@ -214,19 +260,34 @@ void level_of_detail_update(soft_character *const *members, uint32_t count);
 sbr_shape *physics_shape_of(const gd_variant *server, const gd_variant *body, int64_t index,
     const gd_variant *object, gd_transform *inner);
 
+/* ---- world_events.c ---- */
+
+/* Signals of the last step of a world. Handlers may free any node: its holder keeps it. */
+void world_events_report(shared_world *shared);
+
 /* ---- shared_world.c ---- */
 
 /* A world for a character with a model and a position: its own, or a shared one. Sets the character's fields
  * that belong to the world. Returns false, with a message, if it cannot be created. */
 bool shared_world_join(soft_character *one, const sbr_world_definition *definition);
 void shared_world_leave(soft_character *one);
-/* Number of nodes in it. */
+/* Number of nodes in it, and one of them. */
 uint32_t shared_world_count(const shared_world *shared);
-/* Whether an object is below one of them in the tree, as a hit box is. */
+soft_character *shared_world_at(const shared_world *shared, uint32_t index);
+sbr_world *shared_world_get(const shared_world *shared);
+const physics_bodies *shared_world_bodies(const shared_world *shared);
+/* Whether its characters pass through an object: see body_is_passed. */
 bool shared_world_has(const shared_world *shared, const gd_variant *object);
 /* Physics frame of the character: the first character of a world that is called in a frame steps the world
  * for all. */
 void shared_world_step(soft_character *one);
+
+/* Contacts between bodies of its characters and others that have not ended. */
+const contact_list *shared_world_contacts(const shared_world *shared);
+/* The node with that character; NULL: none. */
+soft_character *shared_world_member(const shared_world *shared, sbr_character_id id);
+/* Adds a movable body to the exceptions of the parts of its characters. */
+void shared_world_except(const shared_world *shared, const gd_variant *body);
 
 /* ---- worker_pool.c ---- */
 

@@ -63,3 +63,21 @@ gd_transform upright(sbf_vec3 origin, float heading, float scale) {
   float c = cosf(heading) * scale, s = sinf(heading) * scale;
   return (gd_transform){{{c, 0, s}, {0, scale, 0}, {-s, 0, c}}, origin};
 }
+
+gd_transform placed_at(sbf_quat q, sbf_vec3 at) {
+  float x = q.x, y = q.y, z = q.z, w = q.w;
+  return (gd_transform){{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}},
+      at};
+}
+
+bool transform_unscale(gd_transform *t) {
+  for (int k = 0; k < 3; k++) {
+    float length =
+        sqrtf(t->basis[0][k] * t->basis[0][k] + t->basis[1][k] * t->basis[1][k] + t->basis[2][k] * t->basis[2][k]);
+    if (!(length > 0)) return false;
+    for (int i = 0; i < 3; i++) t->basis[i][k] /= length;
+  }
+  return true;
+}

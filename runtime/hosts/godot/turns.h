@@ -14,6 +14,9 @@ sbf_quat turn_of(float rows[3][3]);
 /* Applies a transform to a vector, and to a point. */
 sbf_vec3 placed_vector(const gd_transform *transform, sbf_vec3 v);
 gd_transform placed_in(const gd_transform *outer, const gd_transform *inner);
+gd_transform placed_at(sbf_quat rotation, sbf_vec3 origin);
+/* Takes the scale off the columns of the basis; false if one of them is zero. */
+bool transform_unscale(gd_transform *transform);
 /* Upright: rotated about +Y only (rad), with that scale. */
 gd_transform upright(sbf_vec3 origin, float heading, float scale);
 

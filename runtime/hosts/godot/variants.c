@@ -242,6 +242,14 @@ gd_variant gd_key(const gd_variant *dictionary, const char *literal) {
   return found;
 }
 
+void gd_set_key(const gd_variant *dictionary, const char *literal, gd_variant value) {
+  gd_variant key = gd_string(literal);
+  GDExtensionBool valid;
+  gd.variant_set_keyed((GDExtensionVariantPtr)(uintptr_t)dictionary, &key, &value, &valid);
+  gd_free(&key);
+  gd_free(&value);
+}
+
 void gd_put(const gd_variant *array, int64_t index, gd_variant value) {
   GDExtensionBool valid, outside;
   gd.variant_set_indexed((GDExtensionVariantPtr)(uintptr_t)array, index, &value, &valid, &outside);

@@ -72,6 +72,8 @@ gd_rect gd_take_rect(gd_variant value);
 gd_variant gd_at(const gd_variant *array, int64_t index);
 gd_variant gd_key(const gd_variant *dictionary, const char *literal);
 void gd_put(const gd_variant *array, int64_t index, gd_variant value); /* takes ownership of `value` */
+/* Sets a key of a dictionary; takes ownership of `value`. */
+void gd_set_key(const gd_variant *dictionary, const char *literal, gd_variant value);
 int64_t gd_size(const gd_variant *array);
 
 /* Writable items of a packed array; NULL if it is empty. */
