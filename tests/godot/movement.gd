@@ -37,7 +37,6 @@ func _initialize() -> void:
 	moved = add_walker("moved", Vector3(18, 0, 0))
 	carried = add_walker("carried", Vector3(24, 0, 0))
 	root.add_child(parent)
-	carried.reparent(parent)
 	led = add_walker("led", Vector3(-10, 0, 0))
 	led.add_child(agent)
 	add_box("StaticBody3D", Vector3(4, 1, 0.2), Vector3(-11, 0.5, 2))
@@ -60,6 +59,8 @@ func mesh_around() -> NavigationMesh:
 
 func _physics_process(delta: float) -> bool:
 	frame += 1
+	if frame == 10:
+		carried.reparent(parent)
 	if frame < 20:
 		return false
 	if frame == 20:

@@ -13,35 +13,36 @@ func _initialize() -> void:
 	one = add_character("res://animated.sbfz")
 	cube = add_character("res://cube.sbfz", Vector3(3, 0, 0))
 	gone = add_character("res://animated.sbfz", Vector3(6, 0, 0))
-	gone.animation_finished.connect(func(_clip: String): gone.free())
+	one.animation_finished.connect(func(_clip: String): if is_instance_valid(gone): gone.free())
 	gone_too = add_character("res://animated.sbfz", Vector3(9, 0, 0))
 	gone_too.meet_others = true
-	gone_too.fell.connect(func(): gone_too.free())
+	gone_too.fell.connect(func(): gone_too.queue_free())
 	still = SoftCharacter3D.new() # without an asset, outside of the tree
 
 
 func _physics_process(_delta: float) -> bool:
 	frame += 1
 	if frame == 5:
-		gone.play("nod")
+		gone.play("nod", {speed = 1.01})
 		gone_too.knock_over()
 		wrong_clips()
 		wrong_targets()
 		wrong_bodies()
 		nothing_there(still)
 		still.free()
+	if frame == 60:
 		one.scale = Vector3(-1, -1, -1)
-	if frame == 20:
+	if frame == 80:
 		check(one.get_skin(0).size() > 0 and skin_of(one)[0].is_finite() and one.position.is_finite(), "it is nowhere")
 		one.scale = Vector3.ZERO
-	if frame == 40:
+	if frame == 100:
 		check(skin_of(one)[0].is_finite(), "without a scale it is nowhere")
 		check(not is_instance_valid(gone) and not is_instance_valid(gone_too), "they are not freed")
 		one.asset = null
 		nothing_there(one)
-	if frame == 45:
+	if frame == 105:
 		finish()
-	return frame == 45
+	return frame == 105
 
 
 func wrong_clips() -> void:
@@ -72,6 +73,8 @@ func wrong_bodies() -> void:
 	cube.velocity = Vector3(INF, 0, 0)
 	check(cube.velocity == Vector3.ZERO, "its velocity is %s" % cube.velocity)
 	cube.move_and_slide()
+	one.collision_layer = -(1 << 40)
+	check(one.collision_layer == 1, "it is on the layers %d" % one.collision_layer)
 
 
 # Without an asset nothing is done, nor complained of.

@@ -145,8 +145,8 @@ REFUSALS = (
     "layer: 7 is not a number from 0 to 3", "the asset has no bone mask wings", "queue: 8 clips wait already",
     "the asset has no ik_chain that ends at the bone wing", "set_ik_target: the transform is not finite",
     "set_look_target: the asset has no such bone", "set_look_target: the point is not finite", "pose_weight: nan is not a number",
-    "drag: nothing is grabbed", "apply_impulse: the position is not finite", "apply_force: the asset has no soft body", "velocity: inf is not a number",
-    "move_and_slide: nothing of it walks", "collision_layer: 1.84467e+19 is not a number", "impulse", "its scale is negative")
+    "drag: nothing is grabbed", "apply_impulse: the position is not finite", "velocity: inf is not a number",
+    "move_and_slide: nothing of it walks", "collision_layer: -1.09951e+12 is not a number", "sbr_character_apply_soft_impulse", "its scale is negative")
 
 
 def refused(godot):
@@ -338,6 +338,7 @@ def main():
             passed = godot.passes("animation", allowed=("SoftCharacter3D#",), said="pose_source is no Skeleton3D")
         elif asked.case == "refused":
             animated(asked.program, godot.folder)
+            cube(asked.program, godot.folder)
             passed = refused(godot)
         elif asked.case == "damaged":
             with open(os.path.join(godot.folder, "lizard.sbfz"), "rb") as file:

@@ -22,16 +22,16 @@ static gd_variant at_key(const gd_variant *options, const char *key) {
 }
 
 /* Reads a number within bounds if it is there; false, with an error, if it is another value. */
-static bool read_number(
-    const soft_character *one, const gd_variant *options, const char *key, double low, double high, double *number) {
+static bool read_number(const soft_character *one, const gd_variant *options, const char *key, double low,
+    double high, double *number) {
   if (!has_key(options, key)) return true;
   gd_variant value = at_key(options, key);
   GDExtensionVariantType type = gd_type(&value);
   bool good = type == GDEXTENSION_VARIANT_TYPE_INT || type == GDEXTENSION_VARIANT_TYPE_FLOAT ||
               type == GDEXTENSION_VARIANT_TYPE_BOOL;
   double read = type == GDEXTENSION_VARIANT_TYPE_FLOAT ? gd_as_float(&value)
-                : good                                  ? (double)gd_as_int(&value)
-                                                        : NAN;
+                : good                                 ? (double)gd_as_int(&value)
+                                                       : NAN;
   gd_free(&value);
   if (!soft_character_fits(one, key, read, low, high)) return false;
   *number = read;
@@ -40,7 +40,8 @@ static bool read_number(
 
 static int32_t find_clip(const soft_character *one, const char *name) {
   for (uint32_t i = 0; i < one->model->asset->clips.count; i++)
-    if (!strcmp(one->model->asset->clips.at[i].name, name) || !strcmp(one->model->asset->clips.at[i].id, name))
+    if (!strcmp(one->model->asset->clips.at[i].name, name) ||
+        !strcmp(one->model->asset->clips.at[i].id, name))
       return (int32_t)i;
   return SBF_NONE;
 }
@@ -59,7 +60,8 @@ static bool read_mask(const soft_character *one, const gd_variant *options, int3
   return false;
 }
 
-/* `options`: a dictionary, the fade in seconds, or nil. Unknown keys are refused, because they are mistyped. */
+/* `options`: a dictionary, the fade in seconds, or nil. Unknown keys are refused, because they are mistyped.
+ */
 static bool read_request(
     const soft_character *one, const gd_variant *const *arguments, clip_request *request, uint32_t *layer) {
   static const char *const keys[] = {"loop", "speed", "blend", "weight", "mask", "layer", "root_motion"};
@@ -72,24 +74,29 @@ static bool read_request(
     soft_character_error(one, message);
     return false;
   }
-  double loops = request->clip != SBF_NONE && one->model->asset->clips.at[request->clip].loop, speed = 1, blend = 0,
-         weight = 1, number = 0, root = 0;
+  double loops = request->clip != SBF_NONE && one->model->asset->clips.at[request->clip].loop, speed = 1,
+         blend = 0, weight = 1, number = 0, root = 0;
   int64_t known = 0;
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) known += has_key(options, keys[i]);
-  if (gd_type(options) == GDEXTENSION_VARIANT_TYPE_INT || gd_type(options) == GDEXTENSION_VARIANT_TYPE_FLOAT) {
+  if (gd_type(options) == GDEXTENSION_VARIANT_TYPE_INT ||
+      gd_type(options) == GDEXTENSION_VARIANT_TYPE_FLOAT) {
     blend = gd_as_float(options);
     if (!soft_character_fits(one, "blend", blend, 0, SOFT_MAX)) return false;
   } else if (gd_type(options) != GDEXTENSION_VARIANT_TYPE_NIL &&
              (gd_type(options) != GDEXTENSION_VARIANT_TYPE_DICTIONARY || known != gd_size(options))) {
-    soft_character_error(one, "play: the options are a dictionary with loop, speed, blend, weight, mask, layer and root_motion, or "
-                              "the seconds of the blend");
+    soft_character_error(one,
+        "play: the options are a dictionary with loop, speed, blend, weight, mask, layer and root_motion, or "
+        "the seconds of the blend");
     return false;
   }
   if (!read_number(one, options, "loop", 0, 1, &loops) ||
       !read_number(one, options, "speed", -SOFT_MAX, SOFT_MAX, &speed) ||
       !read_number(one, options, "blend", 0, SOFT_MAX, &blend) ||
-      !read_number(one, options, "weight", 0, 1, &weight) || !read_number(one, options, "root_motion", 0, 1, &root) ||
-      !read_number(one, options, "layer", 0, pose_driver_is_used(one) ? POSE_LAYER - 1 : CLIP_LAYERS - 1, &number) || !read_mask(one, options, &request->mask))
+      !read_number(one, options, "weight", 0, 1, &weight) ||
+      !read_number(one, options, "root_motion", 0, 1, &root) ||
+      !read_number(
+          one, options, "layer", 0, pose_driver_is_used(one) ? POSE_LAYER - 1 : CLIP_LAYERS - 1, &number) ||
+      !read_mask(one, options, &request->mask))
     return false;
   request->loops = loops != 0, request->root_motion = root != 0;
   request->speed = (float)speed, request->blend_s = (float)blend, request->weight = (float)weight;
@@ -112,7 +119,8 @@ CALL(play) {
   clip_request request;
   uint32_t layer;
   UNUSED;
-  if (has_player(one) && read_request(one, arguments, &request, &layer)) clip_player_play(one, layer, &request);
+  if (has_player(one) && read_request(one, arguments, &request, &layer))
+    clip_player_play(one, layer, &request);
 }
 
 CALL(queue) {
@@ -127,7 +135,8 @@ CALL(queue) {
 
 static const clip_layer *layer_of(const soft_character *one, const gd_variant *layer) {
   int64_t number = gd_type(layer) == GDEXTENSION_VARIANT_TYPE_NIL ? 0 : gd_as_int(layer);
-  return one->world && one->player && number >= 0 && number < CLIP_LAYERS ? &one->player->layers[number] : NULL;
+  return one->world && one->player && number >= 0 && number < CLIP_LAYERS ? &one->player->layers[number]
+                                                                          : NULL;
 }
 
 CALL(get_current_clip) {
@@ -151,10 +160,13 @@ static int32_t find_chain(const soft_character *one, const gd_variant *wanted) {
   int32_t bone = soft_character_bone(one, wanted);
   gd_as_text(wanted, name, sizeof name);
   for (uint32_t i = 0; i < chains->count; i++)
-    if ((bone >= 0 && chains->at[i].end == bone) || !strcmp(chains->at[i].name, name) || !strcmp(chains->at[i].id, name))
+    if ((bone >= 0 && chains->at[i].end == bone) || !strcmp(chains->at[i].name, name) ||
+        !strcmp(chains->at[i].id, name))
       return (int32_t)i;
   snprintf(message, sizeof message,
-      "the asset has no ik_chain that ends at the bone %s, or has that name: see SoftAsset.get_ik_chain_names", name);
+      "the asset has no ik_chain that ends at the bone %s, or has that name: see "
+      "SoftAsset.get_ik_chain_names",
+      name);
   soft_character_error(one, message);
   return -1;
 }
@@ -174,7 +186,8 @@ CALL(set_ik_target) {
   int32_t chain = find_chain(one, arguments[0]);
   if (chain < 0) return;
   if (!is_finite(&at) || !transform_unscale(&at)) {
-    soft_character_error(one, "set_ik_target: the transform is not finite, or has no scale; it stays as it was");
+    soft_character_error(
+        one, "set_ik_target: the transform is not finite, or has no scale; it stays as it was");
     return;
   }
   sbr_ik_target target = sbr_default_ik_target();

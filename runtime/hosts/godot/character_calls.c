@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "sbrun/detail.h"
 #include "method_table.h"
 #include "physics_parts.h"
+#include "sbrun/detail.h"
 #include "sbrun/rigid.h"
 #include "soft_character.h"
 

@@ -12,9 +12,10 @@ static float squared_distance(sbf_vec3 a, sbf_vec3 b) {
   return x * x + y * y + z * z;
 }
 
-/* Nearest vertex of all surfaces to a position, and where it is. An error is logged for `caller` where there is
- * none. */
-static bool find_vertex(const soft_character *one, const char *caller, sbf_vec3 position, surface_vertex *found) {
+/* Nearest vertex of all surfaces to a position, and where it is. An error is logged for `caller` where there
+ * is none. */
+static bool find_vertex(
+    const soft_character *one, const char *caller, sbf_vec3 position, surface_vertex *found) {
   sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
   sbf_vec3 wanted = {(float)((double)position.x - origin.x), (float)((double)position.y - origin.y),
       (float)((double)position.z - origin.z)};
@@ -77,12 +78,11 @@ CALL(apply_force) {
 
 static bool hold(soft_character *one, sbf_vec3 target) {
   sbf_diagnostic error;
-  sbr_soft_hold held = sbr_default_soft_hold();
+  sbr_soft_hold drawn = sbr_default_soft_hold();
   surface_vertex at = one->grabbed;
-  held.target = (sbr_double3){(double)target.x + (double)at.position.x,
+  drawn.target = (sbr_double3){(double)target.x + (double)at.position.x,
       (double)target.y + (double)at.position.y, (double)target.z + (double)at.position.z};
-  sbf_status status =
-      sbr_character_hold_vertex(one->world, one->id, at.soft_body, at.vertex, &held, &error);
+  sbf_status status = sbr_character_hold_vertex(one->world, one->id, at.soft_body, at.vertex, &drawn, &error);
   report(one, status, &error);
   return status == SBF_OK;
 }

@@ -121,7 +121,8 @@ void soft_character_make(soft_character *one) {
     options.has_gravity = s->gravity_scale != 1;
     options.detail_levels = s->detail == SOFT_DETAIL_AUTOMATIC && !one->editor;
     options.gravity = (sbf_vec3){k * g.x, k * g.y, k * g.z};
-    one->model = pose_driver_is_used(one) ? soft_model_hold_posed(asset, &options) : soft_model_hold(asset, &options);
+    one->model =
+        pose_driver_is_used(one) ? soft_model_hold_posed(asset, &options) : soft_model_hold(asset, &options);
     if (one->model && make_world(one)) {
       /* A bundle of the same structure keeps its state; another one begins at the same position. */
       if (kept.bytes && sbr_world_restore_snapshot(one->world, kept.bytes, kept.size) == SBF_OK) {

@@ -46,7 +46,8 @@ void soft_character_measure_velocity(soft_character *one, float frame_s) {
   sbf_vec3 o = one->put.origin, was = one->last_origin;
   one->last_origin = o;
   if (frame_s > 0)
-    one->real_velocity = (sbf_vec3){(o.x - was.x) / frame_s, (o.y - was.y) / frame_s, (o.z - was.z) / frame_s};
+    one->real_velocity =
+        (sbf_vec3){(o.x - was.x) / frame_s, (o.y - was.y) / frame_s, (o.z - was.z) / frame_s};
 }
 
 const gd_method soft_character_movement_methods[] = {

@@ -22,7 +22,8 @@ int32_t soft_character_bone(const soft_character *one, const gd_variant *wanted)
   char name[256];
   gd_as_text(wanted, name, sizeof name);
   for (uint32_t i = 0; one->model && name[0] && i < one->model->asset->bones.count; i++)
-    if (!strcmp(one->model->asset->bones.at[i].name, name) || !strcmp(one->model->asset->bones.at[i].id, name))
+    if (!strcmp(one->model->asset->bones.at[i].name, name) ||
+        !strcmp(one->model->asset->bones.at[i].id, name))
       return (int32_t)i;
   return -1;
 }

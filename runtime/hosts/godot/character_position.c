@@ -191,8 +191,21 @@ void soft_character_pause(soft_character *one) {
   one->still = still;
 }
 
+/* Said once for each time that it becomes negative. */
+static void check_mirrored(soft_character *one, const gd_transform *now) {
+  const float(*m)[3] = now->basis;
+  float determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                      m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  if (determinant < 0 && !one->is_mirrored)
+    soft_character_error(
+        one, "its scale is negative: a character is not mirrored, and has the size of a positive scale");
+  one->is_mirrored = determinant < 0;
+}
+
 bool soft_character_rescale(soft_character *one) {
   gd_transform now = soft_character_transform(one);
+  check_mirrored(one, &now);
   float scale = transform_scale(&now);
   if (fabsf(scale - one->scale) <= 1e-4f * one->scale) return false;
   one->placed = false; /* it restarts at its position */

@@ -35,7 +35,8 @@ static void set_asset(void *self, const gd_variant *const *arguments, gd_variant
     return;
   }
   if (gd_as_object(&one->asset_value))
-    GD_DO(&one->asset_value, "disconnect", gd_name("changed"), soft_character_callable(one, "_asset_changed"));
+    GD_DO(
+        &one->asset_value, "disconnect", gd_name("changed"), soft_character_callable(one, "_asset_changed"));
   gd_assign(&one->asset_value, gd_copy(arguments[0]));
   if (gd_as_object(&one->asset_value))
     GD_DO(&one->asset_value, "connect", gd_name("changed"), soft_character_callable(one, "_asset_changed"));
@@ -137,7 +138,8 @@ static void set_pose_source(void *self, const gd_variant *const *arguments, gd_v
   gd_assign(&pose->path, gd_copy(arguments[0]));
   pose_driver_forget(one);
   pose->warned = false;
-  if (one->model && pose_driver_is_used(one) != (soft_model_pose(one->model) != NULL)) soft_character_make(one);
+  if (one->model && pose_driver_is_used(one) != (soft_model_pose(one->model) != NULL))
+    soft_character_make(one);
 }
 
 static void get_pose_weight(void *self, const gd_variant *const *arguments, gd_variant *result) {

@@ -15,7 +15,8 @@ typedef struct gd_argument {
   const char *class_name;      /* of an object, or CLASS.ENUM for an INT; NULL: any */
 } gd_argument;
 
-/* A method. Its last arguments may be left out if they are of type NIL: they are nil then. In a table of virtual methods the name is Godot's, with its underscore. */
+/* A method. Its last arguments may be left out if they are of type NIL: they are nil then. In a table of
+ * virtual methods the name is Godot's, with its underscore. */
 typedef struct gd_method {
   const char *name;
   gd_function *run;
@@ -58,7 +59,7 @@ typedef struct gd_class {
   void (*begin)(void *self, GDExtensionObjectPtr object);  /* may be NULL */
   void (*end)(void *self);                                 /* may be NULL */
   void (*notify)(void *self, int32_t what, bool reversed); /* may be NULL */
-  const gd_method *const *methods; /* tables; NULL ends them */
+  const gd_method *const *methods;                         /* tables; NULL ends them */
   const gd_method *virtuals;
   const gd_property *properties;
   const gd_signal *signals;

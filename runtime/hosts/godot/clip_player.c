@@ -13,7 +13,8 @@ static double tick_of(const soft_character *one) {
 }
 
 static const sbf_clip *clip_of(const soft_character *one, int32_t clip) {
-  return clip >= 0 && (uint32_t)clip < one->model->asset->clips.count ? &one->model->asset->clips.at[clip] : NULL;
+  return clip >= 0 && (uint32_t)clip < one->model->asset->clips.count ? &one->model->asset->clips.at[clip]
+                                                                      : NULL;
 }
 
 static void send(soft_character *one, uint32_t layer, float speed, float blend_s) {
@@ -76,7 +77,8 @@ static sbf_vec3 sampled(const sbf_track *track, float time) {
   const float *times = track->times.at;
   while (i + 1 < track->times.count && times[i + 1] <= time) i++;
   const float *a = track->values.at + (size_t)i * wide + first;
-  bool last = i + 1 == track->times.count || track->interpolation == SBF_INTERPOLATION_STEP || time <= times[i];
+  bool last =
+      i + 1 == track->times.count || track->interpolation == SBF_INTERPOLATION_STEP || time <= times[i];
   float t = last ? 0 : (time - times[i]) / (times[i + 1] - times[i]);
   const float *b = last ? a : a + wide;
   return (sbf_vec3){a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
@@ -91,7 +93,8 @@ static void move_root(soft_character *one, const clip_layer *l, const sbf_clip *
   const sbf_track *track = l->now.root_motion ? body_track(one, clip) : NULL;
   if (!track || l->rewinds) return;
   double end = l->time_s + step * (double)l->speed, duration = (double)clip->duration;
-  sbf_vec3 first = sampled(track, 0), last = sampled(track, clip->duration), moved, whole = between(first, last);
+  sbf_vec3 first = sampled(track, 0), last = sampled(track, clip->duration), moved,
+           whole = between(first, last);
   if (l->now.loops && clip->loop) {
     double rounds = floor(end / duration);
     moved = between(sampled(track, (float)l->time_s), sampled(track, (float)(end - rounds * duration)));
@@ -179,5 +182,6 @@ void clip_player_remade(soft_character *one) {
   player->tick = sbr_world_get_tick_count(one->world);
   player->ended_count = 0;
   for (uint32_t i = 0; i < CLIP_LAYERS; i++)
-    if (!clip_of(one, player->layers[i].now.clip)) player->layers[i] = (clip_layer){.now = {.clip = SBF_NONE}};
+    if (!clip_of(one, player->layers[i].now.clip))
+      player->layers[i] = (clip_layer){.now = {.clip = SBF_NONE}};
 }

@@ -15,16 +15,16 @@ typedef struct clip_request {
 
 typedef struct clip_layer {
   clip_request now;
-  double time_s;          /* in the clip, as the runtime has it */
-  float speed;            /* that the runtime has */
-  bool plays, rewinds;    /* not ended; it is taken back to its beginning in the next step */
+  double time_s;       /* in the clip, as the runtime has it */
+  float speed;         /* that the runtime has */
+  bool plays, rewinds; /* not ended; it is taken back to its beginning in the next step */
   clip_request queue[CLIP_QUEUE];
   uint32_t queued;
 } clip_layer;
 
 typedef struct clip_player {
   clip_layer layers[CLIP_LAYERS];
-  uint64_t tick; /* of the world, last seen */
+  uint64_t tick;                  /* of the world, last seen */
   int32_t ended[CLIP_LAYERS * 2]; /* clips whose end is to be reported */
   uint32_t ended_count;
 } clip_player;

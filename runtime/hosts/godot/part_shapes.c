@@ -73,7 +73,8 @@ static void add_skinned(point_set *set, const sbf_render_mesh *mesh, int32_t bon
 }
 
 /* Sections of the bone, else its rigid bodies, else its skin. */
-static void collect_bone(const sbf_asset *asset, int32_t bone, bool loose, point_set *set, int32_t *soft_body) {
+static void collect_bone(
+    const sbf_asset *asset, int32_t bone, bool loose, point_set *set, int32_t *soft_body) {
   for (uint32_t i = 0; !loose && i < asset->soft_bodies.count; i++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[i];
     if (body->bone != bone) continue;
@@ -162,8 +163,8 @@ sbf_quat part_rotation(const sbf_vec3 *rest, sbf_vec3 middle, const sbf_vec3 *no
       a[k] = (sbf_vec3){a[k].x + along[k] * p.x, a[k].y + along[k] * p.y, a[k].z + along[k] * p.z};
   }
   for (int round = 0; round < ROUNDS; round++) {
-    sbf_vec3 axes[3] = {
-        turned(guess, (sbf_vec3){1, 0, 0}), turned(guess, (sbf_vec3){0, 1, 0}), turned(guess, (sbf_vec3){0, 0, 1})};
+    sbf_vec3 axes[3] = {turned(guess, (sbf_vec3){1, 0, 0}), turned(guess, (sbf_vec3){0, 1, 0}),
+        turned(guess, (sbf_vec3){0, 0, 1})};
     sbf_vec3 sum = {0, 0, 0};
     float fit = 0;
     for (int k = 0; k < 3; k++) {

@@ -14,11 +14,12 @@ typedef struct part_shape {
   sbf_vec3 hull[PART_POINTS];
 } part_shape;
 
-/* The parts of an asset at a scale; `loose`: its sections are not pinned to their bones. Frees with free(); NULL:
- * there is none, or no memory. */
+/* The parts of an asset at a scale; `loose`: its sections are not pinned to their bones. Frees with free();
+ * NULL: there is none, or no memory. */
 part_shape *part_shapes_make(const sbf_asset *asset, float scale, bool loose, uint32_t *count);
 
-/* Rotation that fits points at rest (about `middle`) best to points now (about `center`), from a first guess. */
+/* Rotation that fits points at rest (about `middle`) best to points now (about `center`), from a first guess.
+ */
 sbf_quat part_rotation(const sbf_vec3 *rest, sbf_vec3 middle, const sbf_vec3 *now, sbf_vec3 center,
     uint32_t count, sbf_quat guess);
 

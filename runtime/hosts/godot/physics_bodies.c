@@ -220,8 +220,9 @@ static mirrored *find_unused(physics_bodies *bodies, sbr_world *world) {
 /* Whether Godot's engine may move it, perhaps later. */
 static bool is_movable(const gd_variant *server, const mirrored *at) {
   gd_variant object = gd_object(gd.object_get_instance_from_id(at->object));
-  bool movable = body_is_rigid(server, &at->handle) ||
-                 (gd_as_object(&object) && gd_take_bool(GD_CALL(&object, "is_class", gd_string("RigidBody3D"))));
+  bool movable =
+      body_is_rigid(server, &at->handle) ||
+      (gd_as_object(&object) && gd_take_bool(GD_CALL(&object, "is_class", gd_string("RigidBody3D"))));
   gd_free(&object);
   return movable;
 }

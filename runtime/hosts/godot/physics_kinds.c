@@ -21,6 +21,8 @@ static bool is_class(const gd_variant *object, const char *name) {
 
 bool body_is_passed(const gd_variant *node, const gd_variant *object) {
   if (!gd_as_object(object) || !is_class(object, "Node")) return false;
-  return is_class(object, "SoftCharacter3D") || gd_take_bool(GD_CALL(node, "is_ancestor_of", gd_copy(object))) ||
-         (is_class(object, "CharacterBody3D") && gd_take_bool(GD_CALL(object, "is_ancestor_of", gd_copy(node))));
+  return is_class(object, "SoftCharacter3D") ||
+         gd_take_bool(GD_CALL(node, "is_ancestor_of", gd_copy(object))) ||
+         (is_class(object, "CharacterBody3D") &&
+             gd_take_bool(GD_CALL(object, "is_ancestor_of", gd_copy(node))));
 }

@@ -8,8 +8,9 @@
 bool body_is_rigid(const gd_variant *server, const gd_variant *body);
 /* Whether it is static; it may still be placed elsewhere. */
 bool body_is_static(const gd_variant *server, const gd_variant *body);
-/* Whether a character passes through a body of that object: it is below the character's node in the tree, as a hit box
- * is; or it is a CharacterBody3D above it, which carries the character; or it is itself a character. */
+/* Whether a character passes through a body of that object: it is below the character's node in the tree, as
+ * a hit box is; or it is a CharacterBody3D above it, which carries the character; or it is itself a
+ * character. */
 bool body_is_passed(const gd_variant *node, const gd_variant *object);
 
 #endif

@@ -40,15 +40,16 @@ static void make_shape(physics_parts *parts, const part_shape *from) {
       .last = UNIT};
   memcpy(gd_vector3s(&points), from->hull, sizeof from->hull);
   GD_DO(&parts->server, "shape_set_data", gd_copy(&part->shape), points);
-  GD_DO(&parts->server, "body_add_shape", gd_copy(&parts->body), gd_copy(&part->shape), gd_transform_value(UNIT));
+  GD_DO(&parts->server, "body_add_shape", gd_copy(&parts->body), gd_copy(&part->shape),
+      gd_transform_value(UNIT));
 }
 
 static uint32_t largest_surface(const sbf_asset *asset) {
-  uint32_t most = 0;
+  uint32_t max = 0;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
-    if (asset->soft_bodies.at[i].surface.positions.count > most)
-      most = asset->soft_bodies.at[i].surface.positions.count;
-  return most;
+    if (asset->soft_bodies.at[i].surface.positions.count > max)
+      max = asset->soft_bodies.at[i].surface.positions.count;
+  return max;
 }
 
 /* Bodies that carry the character by their own script pass through it. */
@@ -68,10 +69,9 @@ static void except_carriers(physics_parts *parts, const gd_variant *node) {
 physics_parts *physics_parts_make(const soft_character *one) {
   const sbf_asset *asset = one->model->asset;
   uint32_t count = 0;
-  part_shape *shapes =
-      one->settings.collision_layer
-          ? part_shapes_make(asset, one->scale, one->settings.free_bodies, &count)
-          : NULL;
+  part_shape *shapes = one->settings.collision_layer
+                           ? part_shapes_make(asset, one->scale, one->settings.free_bodies, &count)
+                           : NULL;
   physics_parts *made = shapes ? calloc(1, sizeof *made) : NULL;
   if (!made) return free(shapes), NULL;
   made->each = malloc(count * sizeof *made->each);
@@ -193,7 +193,8 @@ void physics_parts_move(physics_parts *parts, const soft_character *one) {
   gd_variant area = gd_as_object(&parts->area) ? GD_CALL(&parts->area, "get_rid") : gd_nil();
   bool has_area = gd_as_object(&parts->area) != NULL;
   if (memcmp(&at, &parts->last, sizeof at) != 0) {
-    GD_DO(&parts->server, "body_set_state", gd_copy(&parts->body), gd_int(STATE_TRANSFORM), gd_transform_value(at));
+    GD_DO(&parts->server, "body_set_state", gd_copy(&parts->body), gd_int(STATE_TRANSFORM),
+        gd_transform_value(at));
     if (has_area) GD_DO(&parts->area, "set_global_transform", gd_transform_value(at));
   }
   parts->last = at;
@@ -206,7 +207,8 @@ void physics_parts_move(physics_parts *parts, const soft_character *one) {
     frame = placed_in(&back, &frame);
     if (!memcmp(&frame, &part->last, sizeof frame)) continue;
     part->last = frame;
-    GD_DO(&parts->server, "body_set_shape_transform", gd_copy(&parts->body), gd_int(i), gd_transform_value(frame));
+    GD_DO(&parts->server, "body_set_shape_transform", gd_copy(&parts->body), gd_int(i),
+        gd_transform_value(frame));
     if (has_area)
       GD_DO(&parts->server, "area_set_shape_transform", gd_copy(&area), gd_int(i), gd_transform_value(frame));
   }

@@ -1,5 +1,5 @@
-/* Parts of a character in the physics space: one kinematic body with a shape for each bone or section, so that
- * areas, rays, queries and other bodies meet the character. */
+/* Parts of a character in the physics space: one kinematic body with a shape for each bone or section, so
+ * that areas, rays, queries and other bodies meet the character. */
 #ifndef SBFMT_GODOT_PHYSICS_PARTS_H
 #define SBFMT_GODOT_PHYSICS_PARTS_H
 

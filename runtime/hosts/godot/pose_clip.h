@@ -16,8 +16,8 @@ typedef struct pose_key {
 } pose_key;
 
 typedef struct pose_clip {
-  sbf_asset *asset; /* the copy that has it */
-  int32_t clip;     /* its index */
+  sbf_asset *asset;  /* the copy that has it */
+  int32_t clip;      /* its index */
   sbf_track *tracks; /* two for each bone */
   pose_key *keys;    /* for each bone */
   pose_key *before;  /* as of the last call of pose_clip_changes */

@@ -79,7 +79,8 @@ static bool find_bones(soft_character *one, const gd_variant *skeleton) {
     }
     found += pose->bones[i] >= 0;
   }
-  if (!found) soft_character_error(one, "pose_source: no bone of that Skeleton3D has the name of one of the asset's");
+  if (!found)
+    soft_character_error(one, "pose_source: no bone of that Skeleton3D has the name of one of the asset's");
   return true;
 }
 
@@ -98,7 +99,8 @@ static void copy_bone(soft_character *one, const gd_variant *skeleton, uint32_t 
   if (!transform_unscale(&rest) || !transform_unscale(&pose)) return;
   sbf_vec3 moved = {
       pose.origin.x - rest.origin.x, pose.origin.y - rest.origin.y, pose.origin.z - rest.origin.z};
-  key->rotation = turn_product(mine.rotation, turn_product(turn_back(turn_of(rest.basis)), turn_of(pose.basis)));
+  key->rotation =
+      turn_product(mine.rotation, turn_product(turn_back(turn_of(rest.basis)), turn_of(pose.basis)));
   key->translation =
       (sbf_vec3){mine.position.x + moved.x, mine.position.y + moved.y, mine.position.z + moved.z};
 }
@@ -106,7 +108,8 @@ static void copy_bone(soft_character *one, const gd_variant *skeleton, uint32_t 
 static void copy_skeleton(soft_character *one, pose_clip *clip) {
   pose_driver *pose = one->pose;
   gd_variant skeleton = GD_CALL(&one->node, "get_node_or_null", gd_copy(&pose->path));
-  bool good = gd_as_object(&skeleton) && gd_take_bool(GD_CALL(&skeleton, "is_class", gd_string("Skeleton3D")));
+  bool good =
+      gd_as_object(&skeleton) && gd_take_bool(GD_CALL(&skeleton, "is_class", gd_string("Skeleton3D")));
   if (!good && !pose->warned)
     soft_character_error(one, "pose_source is no Skeleton3D, or not there: bones have their own animation");
   pose->warned = !good;
@@ -143,7 +146,8 @@ static sbf_quat turn_between(sbf_vec3 from, sbf_vec3 to) {
   return (sbf_quat){s * axis.x, s * axis.y, s * axis.z, cosf(angle / 2)};
 }
 
-static void apply_aim(soft_character *one, pose_clip *clip, pose_aim *aim, const sbr_transform *bones, float frame_s) {
+static void apply_aim(
+    soft_character *one, pose_clip *clip, pose_aim *aim, const sbr_transform *bones, float frame_s) {
   const sbf_asset *asset = one->model->asset;
   const sbf_bone *bone = &asset->bones.at[aim->bone];
   pose_key *key = &clip->keys[aim->bone];
@@ -159,7 +163,8 @@ static void apply_aim(soft_character *one, pose_clip *clip, pose_aim *aim, const
   sbf_vec3 to = {(float)((double)aim->point.x - o.x) - at.x, (float)((double)aim->point.y - o.y) - at.y,
       (float)((double)aim->point.z - o.z) - at.z};
   sbf_vec3 front = turned(animated, turned(turn_back(bone->rotation), (sbf_vec3){0, 0, 1}));
-  sbf_quat none = {0, 0, 0, 1}, wanted = aim->ends ? none : blended(none, turn_between(front, to), aim->weight);
+  sbf_quat none = {0, 0, 0, 1},
+           wanted = aim->ends ? none : blended(none, turn_between(front, to), aim->weight);
   aim->turn = blended(aim->turn, wanted, 1 - expf(-AIM_RATE * frame_s));
   key->rotation = turn_product(turn_back(parent), turn_product(aim->turn, animated));
   pose_clip_enable(clip, (uint32_t)aim->bone, true);

@@ -19,7 +19,7 @@ typedef struct pose_aim {
 } pose_aim;
 
 struct pose_driver {
-  gd_variant path; /* NodePath of the Skeleton3D */
+  gd_variant path;            /* NodePath of the Skeleton3D */
   double weight, sent_weight; /* the runtime's; below 0: none */
   pose_aim aims[POSE_AIMS];
   uint32_t aim_count;

@@ -33,7 +33,7 @@ soft_model *soft_model_hold(soft_asset *asset, const sbr_model_options *options)
 /* A model of a copy of the asset with a clip that its character writes. */
 soft_model *soft_model_hold_posed(soft_asset *asset, const sbr_model_options *options);
 pose_clip *soft_model_pose(soft_model *model); /* NULL: it has none */
-void soft_model_release(soft_model *model); /* NULL does nothing */
+void soft_model_release(soft_model *model);    /* NULL does nothing */
 /* Storage for the StandardMaterial3D and the ImageTexture with those indices of the asset, shared by all
  * nodes: nil until the caller has set them. NULL without memory or such an index. Main thread only. */
 gd_variant *soft_model_material(soft_model *model, int32_t index);

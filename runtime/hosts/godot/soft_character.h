@@ -34,10 +34,10 @@ typedef struct soft_settings {
   int64_t detail;                  /* a soft_detail */
   bool free_bodies, hold_pose, use_threads;
   double forward_speed, sideways_speed, turn_speed, vertical_speed; /* m/s, m/s, rad/s, m/s */
-  double max_turn_speed;                                           /* rad/s of move_and_slide; 0: it keeps its heading */
+  double max_turn_speed; /* rad/s of move_and_slide; 0: it keeps its heading */
   double gravity_scale;
   bool paused, preview, mirror_skeleton;
-  int64_t ground;           /* a soft_ground */
+  int64_t ground;                          /* a soft_ground */
   int64_t collision_layer, collision_mask; /* physics layers it is on, and that it collides with */
   bool input_ray_pickable;
   double teleport_distance; /* m: a node that is moved farther in a frame is placed there; 0: half its size */
@@ -86,9 +86,10 @@ typedef struct soft_character {
   gd_transform put;  /* where its own motion last moved the node */
   bool displaced;    /* its node was moved, but the world did not follow at this tick: */
   uint64_t tick;
-  sbf_vec3 looked; /* position at the last query for bodies */
-  bool stale;      /* the mesh must be updated */
-  bool previews;   /* it moves in the editor; before the preview it was at: */
+  sbf_vec3 looked;  /* position at the last query for bodies */
+  bool stale;       /* the mesh must be updated */
+  bool is_mirrored; /* its node has a negative scale */
+  bool previews;    /* it moves in the editor; before the preview it was at: */
   gd_transform from;
   gd_transform warned; /* transform at the last warnings of the editor */
   character_mesh *mesh;
@@ -100,9 +101,10 @@ typedef struct soft_character {
   surface_vertex grabbed; /* its position: from the grabbed point */
   clip_player *player;    /* NULL: nothing was played */
   pose_driver *pose;      /* NULL: nothing was posed */
-  sbf_vec3 velocity, real_velocity, wanted_velocity; /* m/s: of a script; measured; at the last move_and_slide */
-  sbf_vec3 last_origin;                              /* of the node after the last step */
-  int64_t posture;        /* sbr_posture after the last step */
+  sbf_vec3 velocity, real_velocity,
+      wanted_velocity;  /* m/s: of a script; measured; at the last move_and_slide */
+  sbf_vec3 last_origin; /* of the node after the last step */
+  int64_t posture;      /* sbr_posture after the last step */
 } soft_character;
 
 /* Logs an error with the node's name. */

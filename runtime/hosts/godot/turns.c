@@ -74,8 +74,8 @@ gd_transform placed_at(sbf_quat q, sbf_vec3 at) {
 
 bool transform_unscale(gd_transform *t) {
   for (int k = 0; k < 3; k++) {
-    float length =
-        sqrtf(t->basis[0][k] * t->basis[0][k] + t->basis[1][k] * t->basis[1][k] + t->basis[2][k] * t->basis[2][k]);
+    float length = sqrtf(
+        t->basis[0][k] * t->basis[0][k] + t->basis[1][k] * t->basis[1][k] + t->basis[2][k] * t->basis[2][k]);
     if (!(length > 0)) return false;
     for (int i = 0; i < 3; i++) t->basis[i][k] /= length;
   }

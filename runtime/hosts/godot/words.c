@@ -16,11 +16,14 @@ static const gd_help character_words[] = {
     {"vertical_speed",
         "Wanted vertical speed in m/s of a swimmer or flier; negative: down. Other characters ignore it."},
     {"velocity", "Velocity in m/s, world axes, at which [method move_and_slide] moves it."},
-    {"max_turn_speed", "Rate in rad/s at which [method move_and_slide] turns its front to [member velocity]; 0: it keeps "
-                       "its heading."},
-    {"pose_source", "A [Skeleton3D] that an [AnimationPlayer] or [AnimationTree] drives: bones of the same names take its "
-                    "pose, and the soft bodies follow. Walking legs and tails keep their own motion, and clips are in "
-                    "layers 0 to 2."},
+    {"max_turn_speed",
+        "Rate in rad/s at which [method move_and_slide] turns its front to [member velocity]; 0: it keeps "
+        "its heading."},
+    {"pose_source",
+        "A [Skeleton3D] that an [AnimationPlayer] or [AnimationTree] drives: bones of the same names take "
+        "its "
+        "pose, and the soft bodies follow. Walking legs and tails keep their own motion, and clips are in "
+        "layers 0 to 2."},
     {"pose_weight", "How much of the pose of [member pose_source] is taken, 0 to 1."},
     {"scheme", "Integration scheme of the soft bodies. Automatic is the file's own choice and the best to "
                "begin with."},
@@ -44,10 +47,12 @@ static const gd_help character_words[] = {
         "Metres. A node that moves farther in one frame, by a script or its parent, takes the character "
         "there at once. Smaller motion makes it step there. 0 is half of its size."},
     {"collision_mask", "Physics layers of the ground and of the bodies that it collides with."},
-    {"collision_layer", "Physics layers of its parts: one kinematic body, with a convex shape for each bone or soft "
-                        "body. Areas, rays, queries and other bodies meet it. See [method get_bone_of_shape]. 0 is "
-                        "none, without cost."},
-    {"input_ray_pickable", "Whether the mouse picks it: [signal input_event]. An area on layer 32 stands in for it."},
+    {"collision_layer",
+        "Physics layers of its parts: one kinematic body, with a convex shape for each bone or soft "
+        "body. Areas, rays, queries and other bodies meet it. See [method get_bone_of_shape]. 0 is "
+        "none, without cost."},
+    {"input_ray_pickable",
+        "Whether the mouse picks it: [signal input_event]. An area on layer 32 stands in for it."},
     {"push_bodies", "A [RigidBody3D] in contact gets the soft bodies' impulses."},
     {"push_limit", "Greatest change of a body's velocity by the impulses of one frame, in m/s. A body that "
                    "arrives faster still bounces off. 0 is no limit."},
@@ -62,22 +67,28 @@ static const gd_help character_words[] = {
     {"teleport", "Moves the character to a position, with [param heading] in radians about +Y. A walker "
                  "stands on the ground there; loose bodies fall to it. The pose is kept."},
     {"reset_pose", "Puts the character into its rest pose at its position."},
-    {"play", "Plays the clip of that name below the gait; an empty name fades it out. [param options] is a dictionary: "
+    {"play", "Plays the clip of that name below the gait; an empty name fades it out. [param options] is a "
+             "dictionary: "
              "loop (else the file's), speed (1), blend (seconds), weight (1), mask (of [method "
              "SoftAsset.get_bone_mask_names]), layer (0 to 3, higher ones over lower ones), "
-             "root_motion (the body bone's motion along the ground moves a walking character); or the seconds of the blend."},
+             "root_motion (the body bone's motion along the ground moves a walking character); or the "
+             "seconds of the blend."},
     {"queue", "Plays a clip when that of its layer ends; at most 8 wait. See [method play]."},
-    {"get_current_clip", "Name of the clip that a layer plays; empty: none, or it has ended. Without a number layer 0."},
+    {"get_current_clip",
+        "Name of the clip that a layer plays; empty: none, or it has ended. Without a number layer 0."},
     {"get_clip_position", "Seconds into the clip of a layer."},
-    {"set_ik_target", "Draws the end of an ik_chain, by the bone's or the chain's name, to a place in world space, until "
-                      "[method clear_ik_target]. The weight is 0 to 1, by default 1. It acts on walking legs too."},
-    {"set_look_target", "Turns the front of a bone, as the head, to a point in world space, by at most 69 degrees, until "
-                        "[method clear_look_target]. The weight is 0 to 1, by default 1."},
+    {"set_ik_target",
+        "Draws the end of an ik_chain, by the bone's or the chain's name, to a place in world space, until "
+        "[method clear_ik_target]. The weight is 0 to 1, by default 1. It acts on walking legs too."},
+    {"set_look_target",
+        "Turns the front of a bone, as the head, to a point in world space, by at most 69 degrees, until "
+        "[method clear_look_target]. The weight is 0 to 1, by default 1."},
     {"clear_look_target", "The bone turns back to its animation."},
     {"clear_ik_target", "The limb follows its animation again."},
-    {"move_and_slide", "Moves it at [member velocity] for a physics frame: its feet step after it, floors carry it, and "
-                       "walls keep it out. Up and down is for those that swim or fly. Whether something was in its way "
-                       "in the last frame. Call it in _physics_process."},
+    {"move_and_slide",
+        "Moves it at [member velocity] for a physics frame: its feet step after it, floors carry it, and "
+        "walls keep it out. Up and down is for those that swim or fly. Whether something was in its way "
+        "in the last frame. Call it in _physics_process."},
     {"get_real_velocity", "Velocity in m/s at which the node moved in the last physics frame."},
     {"knock_over", "Makes the character fall. If it has legs, it gets up again. See [signal landed]."},
     {"get_travelled", "Distance travelled, in metres."},
@@ -98,11 +109,15 @@ static const gd_help character_words[] = {
         "Applies an impulse in N s at a vertex of a soft body's surface; -1: to the whole body."},
     {"apply_soft_force",
         "Applies a constant force in N for so many seconds at a vertex; -1: to the whole body."},
-    {"apply_impulse", "Applies an impulse in N s at the surface nearest to a position in world space, as a hit has it."},
-    {"apply_force", "Applies a force in N there for one physics frame: call it in each. At most 8 forces and holds act."},
-    {"grab", "Takes hold of the surface nearest to a point in world space; whether it could. [method drag] moves it, "
+    {"apply_impulse",
+        "Applies an impulse in N s at the surface nearest to a position in world space, as a hit has it."},
+    {"apply_force",
+        "Applies a force in N there for one physics frame: call it in each. At most 8 forces and holds act."},
+    {"grab", "Takes hold of the surface nearest to a point in world space; whether it could. [method drag] "
+             "moves it, "
              "[method release] lets go."},
-    {"drag", "Pulls what [method grab] holds to a point in world space, with at most 20 times the body's weight."},
+    {"drag",
+        "Pulls what [method grab] holds to a point in world space, with at most 20 times the body's weight."},
     {"release", "Lets go of what [method grab] holds."},
     {"is_grabbed", "Whether [method grab] holds it."},
     {"get_nearest_vertex",
@@ -115,12 +130,14 @@ static const gd_help character_words[] = {
         "Force in N and torque in N m that each pin set exerts on a soft body, one after the other."},
     {"get_stress", "Cauchy stress in Pa of each tetrahedron: xx, yy, zz, then xy, yz, zx. Empty where a soft "
                    "body has none."},
-    {"get_bone_of_shape", "Name of the bone that a shape of its body follows, as hits report shapes; empty: none."},
+    {"get_bone_of_shape",
+        "Name of the bone that a shape of its body follows, as hits report shapes; empty: none."},
     {"get_soft_body_of_shape", "Number of the soft body that a shape of its body stands for; -1: none."},
     {"get_rid", "RID of its body in the physics space. See [member collision_layer]."},
-    {"get_contacts", "Contacts of its soft bodies and simulated rigid bodies at present, each with soft_body, bone, "
-                     "position, normal, impulse and with, as [signal contact] has them; positions are those of the "
-                     "last strike."},
+    {"get_contacts",
+        "Contacts of its soft bodies and simulated rigid bodies at present, each with soft_body, bone, "
+        "position, normal, impulse and with, as [signal contact] has them; positions are those of the "
+        "last strike."},
     {"get_substeps_needed", "Number of substeps that the bodies need now to be stable."},
     {"get_state_hash", "Hash of the simulation's state: equal if two runs are equal to the bit."},
     {"get_skeleton", "The [Skeleton3D] with its bones, or null. See [member mirror_skeleton]."},
@@ -141,7 +158,8 @@ static const gd_help character_words[] = {
     {"struck", "Something strikes a body at more than 1 m/s: once a tick. See [signal contact]."},
     {"fell_asleep", "Soft bodies that hang together come to rest; [param soft_body] is the first of them."},
     {"woke", "Soft bodies that rested move again."},
-    {"animation_finished", "A clip that does not loop has come to its end, where it stays. See [method play]."},
+    {"animation_finished",
+        "A clip that does not loop has come to its end, where it stays. See [method play]."},
     {"fell", "It was knocked over."},
     {"rising", "It begins to get up. See [method knock_over]."},
     {"rose", "It stands again."},

@@ -1,5 +1,5 @@
-/* Signals of a step. Their handlers may free any node or step the world, which empties the arrays of events: each
- * event is fetched anew, and nodes are looked up. */
+/* Signals of a step. Their handlers may free any node or step the world, which empties the arrays of events:
+ * each event is fetched anew, and nodes are looked up. */
 #include "clip_player.h"
 #include "sbrun/events.h"
 #include "sbrun/rigid.h"
@@ -13,17 +13,17 @@ static gd_variant variant_of(sbr_double3 position) {
 
 typedef enum contact_kind { CONTACT_BEGINS, CONTACT_ENDS, CONTACT_HITS } contact_kind;
 
-static void emit_contact(
-    const gd_variant *node, contact_kind kind, int32_t soft_body, const sbr_contact_event *e, float side, gd_variant with) {
+static void emit_contact(const gd_variant *node, contact_kind kind, int32_t soft_body,
+    const sbr_contact_event *e, float side, gd_variant with) {
   gd_variant normal = gd_vector3((sbf_vec3){side * e->normal.x, side * e->normal.y, side * e->normal.z});
   if (kind == CONTACT_ENDS)
     GD_DO(node, "emit_signal", gd_name("contact_ended"), gd_int(soft_body), with);
   else if (kind == CONTACT_HITS)
-    GD_DO(node, "emit_signal", gd_name("struck"), gd_int(soft_body), variant_of(e->position), gd_copy(&normal),
-        gd_float((double)e->speed), with);
+    GD_DO(node, "emit_signal", gd_name("struck"), gd_int(soft_body), variant_of(e->position),
+        gd_copy(&normal), gd_float((double)e->speed), with);
   else
-    GD_DO(node, "emit_signal", gd_name("contact"), gd_int(soft_body), variant_of(e->position), gd_copy(&normal),
-        gd_float((double)e->impulse), with);
+    GD_DO(node, "emit_signal", gd_name("contact"), gd_int(soft_body), variant_of(e->position),
+        gd_copy(&normal), gd_float((double)e->impulse), with);
   gd_free(&normal);
 }
 
@@ -119,7 +119,8 @@ static void report_clips(shared_world *shared) {
     int32_t ended = clip_player_take_ended(one);
     if (ended < 0) continue;
     const sbf_clip *clip = &one->model->asset->clips.at[ended];
-    GD_DO(&one->node, "emit_signal", gd_name("animation_finished"), gd_string(clip->name[0] ? clip->name : clip->id));
+    GD_DO(&one->node, "emit_signal", gd_name("animation_finished"),
+        gd_string(clip->name[0] ? clip->name : clip->id));
     i = UINT32_MAX; /* from the first again: a handler may have freed any of them */
   }
 }
