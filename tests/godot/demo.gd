@@ -19,6 +19,54 @@ func _initialize() -> void:
 			if with == scene.get_node("Lizard"): met[name] = true)
 
 
+func click(button: MouseButton, pressed: bool, at: Vector3) -> void:
+	var event := InputEventMouseButton.new()
+	event.button_index = button
+	event.pressed = pressed
+	event.position = scene.get_node("Camera").unproject_position(at)
+	event.global_position = event.position
+	root.push_input(event)
+
+
+func drag_to(at: Vector3) -> void:
+	var event := InputEventMouseMotion.new()
+	event.position = scene.get_node("Camera").unproject_position(at)
+	event.global_position = event.position
+	root.push_input(event)
+
+
+# The mouse pushes, drags and leads; the neck nods; the gate is lit.
+func play_on(lizard: SoftCharacter3D) -> void:
+	var hand: Node3D = scene.get_node("Hand")
+	var jelly: SoftCharacter3D = scene.get_node("Jelly")
+	var skeleton: Skeleton3D = lizard.get_skeleton()
+	match frame:
+		410:
+			click(MOUSE_BUTTON_LEFT, true, middle_of(lizard))
+			check(scene.get_node("Hit").text.begins_with("Lizard "), "the click hit '%s'" % scene.get_node("Hit").text)
+		412:
+			start = middle_of(jelly)
+			click(MOUSE_BUTTON_RIGHT, true, start)
+			drag_to(start + Vector3(0, 0.3, 0))
+			check(hand.held == jelly, "the hand holds %s" % hand.held)
+		450:
+			check(middle_of(jelly).y > start.y + 0.1, "the hand dragged it by %s" % (middle_of(jelly) - start))
+			click(MOUSE_BUTTON_RIGHT, false, start)
+			check(hand.held == null and not jelly.is_grabbed(), "the hand still holds it")
+			press(KEY_N, true)
+		468:
+			var neck := skeleton.find_bone("neck")
+			var turn := skeleton.get_bone_rest(neck).basis.get_rotation_quaternion().angle_to(skeleton.get_bone_pose_rotation(neck))
+			check(turn > 0.2, "the neck nods by %f" % turn)
+			start = lizard.position
+			hand.goal = start + Vector3(-0.5, 0, -0.5)
+		640:
+			check(lizard.position.distance_to(start) > 0.4 and not hand.goal.is_finite(), "it was led from %s to %s" % [start, lizard.position])
+			lizard.teleport(scene.get_node("Gate").position, 0)
+		645:
+			check(scene.get_node("Gate/Seen").mesh.material.albedo_color.r > 0.9, "the gate is not lit")
+
+
 func press(key: Key, down: bool) -> void:
 	var event := InputEventKey.new()
 	event.keycode = key
@@ -39,7 +87,7 @@ func _physics_process(_delta: float) -> bool:
 		press(KEY_A, true)
 	if frame > 60 and frame % 30 == 0:
 		least = minf(least, lowest(skin_of(lizard), func(at: Vector3): return scene.get_node("Hills").height(at.x, at.z)))
-	if frame == 396:
+	if frame == 646:
 		RenderingServer.render_loop_enabled = true
 	if frame == 400:
 		press(KEY_A, false)
@@ -56,11 +104,12 @@ func _physics_process(_delta: float) -> bool:
 		check(scene.steps > 20, "%d steps were told" % scene.steps)
 		check(least > -0.02 and least < 0.02, "the lowest point of its skin is %f above the hills" % least)
 		print("went %f m, turned %f, %d steps, lowest %f" % [lizard.get_travelled(), lizard.rotation.y, scene.steps, least])
+	if frame > 400: play_on(lizard)
 	return false
 
 
 func _process(_delta: float) -> bool:
-	if frame < 402:
+	if frame < 652:
 		return false
 	var out := OS.get_cmdline_user_args()
 	if out.size() and DisplayServer.get_name() != "headless":

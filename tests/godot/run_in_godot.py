@@ -7,14 +7,17 @@
 build whose add-on is installed, --addon one that was packed; without either there is none."""
 
 import argparse
+import base64
 import json
 import math
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 from godot_project import HERE, ROOT, Godot, needed_libraries, skip
 from blender_window import Screen
@@ -113,6 +116,45 @@ def animated(program, folder):
     os.remove(path)
 
 
+def png(width, pixels):
+    """A picture of RGBA pixels, row by row from the top, in base64."""
+    rows = b"".join(b"\0" + bytes(one for pixel in pixels[k:k + width] for one in pixel) for k in range(0, len(pixels), width))
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    header = struct.pack(">IIBBBBB", width, len(pixels) // width, 8, 6, 0, 0, 0)
+    return base64.b64encode(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")).decode()
+
+
+def plates(program, folder):
+    """Upright plates of a metre that face +Z, beside each other: bumps that slope to the right, left, up and down in its quarters (and the same
+    with turned coordinates); colours of vertices; a picture turned by a quarter; one with a hole; glass; one that shines; and one of two sides."""
+    def quarters(*colors):
+        return png(8, [colors[(0 if y < 4 else 2) + (0 if x < 4 else 1)] for y in range(8) for x in range(8)])
+    right, left, up, down = (218, 128, 218, 255), (38, 128, 218, 255), (128, 218, 218, 255), (128, 38, 218, 255)
+    red, blue, hole = (255, 0, 0, 255), (0, 0, 255, 255), (255, 255, 255, 0)
+    textures = {"bumps": quarters(right, left, up, down), "halves": quarters(red, blue, red, blue), "holes": quarters(hole, red, hole, red)}
+    materials = {"bumpy": 'normal_texture="bumps"', "tinted": "", "turned": 'base_color_texture="halves"', "holed": 'alpha_mode="mask" base_color_texture="holes"',
+                 "glass": 'alpha_mode="blend" base_color="1 1 1 0.25"', "shining": 'base_color="0 0 0 1" emissive="0 0.5 0"',
+                 "back": 'double_sided="true"', "spun": 'normal_texture="bumps"'}
+    uv = {"turned": '<base_color_uv rotation="1.5707963"/>', "spun": '<normal_uv rotation="1.5707963"/>'}
+    text = '<?xml version="1.0" encoding="UTF-8"?>\n<sbf version="1.1"><textures>'
+    text += "".join(f'<texture id="{name}" media_type="image/png"><bytes>{data}</bytes></texture>' for name, data in textures.items())
+    text += "</textures><materials>" + "".join(f'<material id="{name}" {more} roughness="1">{uv.get(name, "")}</material>' for name, more in materials.items())
+    text += "</materials>"
+    for k, name in enumerate(materials):
+        x = 1.5 * k
+        order = "0 3 2 1" if name == "back" else "0 1 2 3"
+        colors = "<colors>1 0 0 1 0 1 0 1 0 1 0 1 1 0 0 1</colors>" if name == "tinted" else ""
+        text += (f'<render_mesh id="plate.{name}" name="{name}"><polygon_mesh target="rendering"><positions>{x} 0 0 {x + 1} 0 0 {x + 1} 1 0 {x} 1 0</positions><polygon_sizes>4</polygon_sizes>'
+                 f"<polygon_points>{order}</polygon_points></polygon_mesh><uv_set><coordinates>0 0 1 0 1 1 0 1</coordinates></uv_set>"
+                 f'<material_slot material="{name}"/>{colors}</render_mesh>')
+    path = os.path.join(folder, "plates.sbf")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text + "</sbf>")
+    subprocess.run([program, "pack", path, "--store", "-o", path + "z"], check=True, capture_output=True)
+    os.remove(path)
+
+
 def copy_demo(godot, program):
     """The demo project, with what its README has one make for it; but for the lizard, which is there."""
     for name in os.listdir(DEMO):
@@ -126,6 +168,18 @@ def native(program, folder, name="lizard"):
     done = subprocess.run([program, "run", os.path.join(folder, name + ".sbfz"), "--seconds", "10", "--drive", "0.25,0", "--format", "json"],
                           check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
+
+
+def drawn(godot, program, keep):
+    """Plates with materials of every kind, drawn; the picture is kept where `keep` says."""
+    if not shutil.which("Xvfb"):
+        skip("there is no screen: install the package xvfb")
+    plates(program, godot.folder)
+    with Screen(godot.folder, godot.root) as screen:
+        passed = godot.passes("drawn", "res://picture.png", display=f":{screen.number}", allowed=(*IN_A_CHROOT, "surface_materials: Nose/0"))
+    if keep:
+        shutil.copy(os.path.join(godot.folder, "picture.png"), keep)
+    return passed
 
 
 def demo(godot, program, keep):
@@ -160,6 +214,17 @@ def refused(godot):
             print(f"FAILED: said {times} times: {said}")
             passed = False
     return passed
+
+
+def fresh_demo(godot):
+    """The demo as its README has it made, in another folder: it plays at once."""
+    subprocess.run(["cmake", "--build", godot.build, "--target", "sbfmt-godot-demo"], check=True, stdout=subprocess.DEVNULL)
+    made = os.path.join(godot.build, "godot-demo")
+    shutil.rmtree(os.path.join(godot.folder, "addons"))
+    shutil.rmtree(os.path.join(godot.folder, ".godot"))
+    shutil.copytree(made, godot.folder, dirs_exist_ok=True)
+    passed = godot.is_good(godot.run("--headless", "--fixed-fps", "60", "--quit-after", "120"))
+    return godot.is_good(godot.run("--headless", "--import")) and godot.is_good(godot.run("--headless", "--fixed-fps", "60", "--quit-after", "120")) and passed
 
 
 PLUGINS = '\n[editor_plugins]\n\nenabled=PackedStringArray({})\n'
@@ -355,6 +420,10 @@ def main():
             passed = imported(godot, asked.program)
         elif asked.case == "editor":
             passed = editor(godot)
+        elif asked.case == "drawn":
+            passed = drawn(godot, asked.program, asked.keep)
+        elif asked.case == "fresh_demo":
+            passed = fresh_demo(godot)
         elif asked.case == "demo":
             passed = demo(godot, asked.program, asked.keep)
         else:

@@ -9,21 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "soft_material.h"
 #include "surface_vertices.h"
+#include "turns.h"
 
 enum {
   PRIMITIVE_TRIANGLES = 3,
   FORMAT_DYNAMIC = 1 << 26,
   ARRAY_VERTEX = 0,
   ARRAY_NORMAL = 1,
+  ARRAY_TANGENT = 2,
+  ARRAY_COLOR = 3,
   ARRAY_TEX_UV = 4,
   ARRAY_INDEX = 12,
   ARRAY_MAX = 13,
-  TEXTURE_ALBEDO = 0, /* of BaseMaterial3D */
-  TEXTURE_METALLIC = 1,
-  TEXTURE_ROUGHNESS = 2,
-  CHANNEL_GREEN = 1,
-  CHANNEL_BLUE = 2,
   INTERPOLATION_OFF = 2 /* its vertices move, not the node */
 };
 
@@ -31,11 +30,13 @@ typedef struct shown_surface {
   surface_vertices vertices;
   gd_variant bytes;                 /* PackedByteArray of positions, then normals, in the renderer's format */
   uint32_t normals_at, normal_step; /* offset of normals, and their stride */
+  bool has_tangents;                /* each after its normal, turned in its plane by: */
+  float sine, cosine;
 } shown_surface;
 
 typedef struct shown_mesh {
   uint32_t render_mesh;
-  bool corners; /* it has normals per corner, not per point */
+  bool corners, tangents; /* it has normals per corner, not per point; a surface has tangents */
   gd_variant mesh, instance;
   shown_surface *surfaces;
   uint32_t surface_count;
@@ -45,119 +46,26 @@ struct character_mesh {
   shown_mesh *meshes;
   uint32_t count;
   sbf_vec3 *positions, *normals; /* capacity for the largest mesh */
+  sbf_vec4 *tangents;
 };
 
-/* ---- Material ---- */
-
-static gd_variant decoded_texture(const sbf_texture *texture) {
-  gd_variant image = gd_new("Image"), classes = gd_singleton("ClassDB");
-  gd_variant bytes = gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_BYTE_ARRAY, texture->bytes.count);
-  memcpy(gd_bytes(&bytes), texture->bytes.at, texture->bytes.count);
-  const char *type = texture->media_type, *load = strstr(type, "jpeg")   ? "load_jpg_from_buffer"
-                                                  : strstr(type, "webp") ? "load_webp_from_buffer"
-                                                                         : "load_png_from_buffer";
-  int64_t failed = gd_take_int(GD_CALL(&image, load, bytes));
-  gd_variant made = gd_nil();
-  if (!failed) {
-    GD_DO(&image, "generate_mipmaps");
-    made = GD_CALL(&classes, "class_call_static", gd_name("ImageTexture"), gd_name("create_from_image"),
-        gd_copy(&image));
-  }
-  gd_free(&image);
-  gd_free(&classes);
-  return made;
-}
-
-/* A resource of the project next to the bundle. */
-static gd_variant texture_beside(const soft_character *one, const sbf_texture *texture) {
-  char bundle[512], path[1024], message[1280];
-  gd_variant loader = gd_singleton("ResourceLoader"), from = GD_CALL(&one->asset_value, "get_path");
-  gd_as_text(&from, bundle, sizeof bundle);
-  const char *end = strrchr(bundle, '/');
-  snprintf(path, sizeof path, "%.*s%s", end ? (int)(end + 1 - bundle) : 0, bundle, texture->path);
-  gd_variant found = gd_nil();
-  if (gd_take_bool(GD_CALL(&loader, "exists", gd_string(path), gd_string("Texture2D"))))
-    found = GD_CALL(&loader, "load", gd_string(path), gd_string("Texture2D"));
-  else {
-    snprintf(message, sizeof message,
-        "the texture %s is not there: put it there, or export the character with its textures in it", path);
-    soft_character_warning(one, message);
-  }
-  gd_free(&from);
-  gd_free(&loader);
-  return found;
-}
-
-/* Created once for all nodes with the asset; false is stored after a failure. Nil: no texture. */
-static gd_variant texture_of(const soft_character *one, int32_t index) {
-  gd_variant *kept = soft_model_texture(one->model, index);
-  if (!kept) return gd_nil();
-  const sbf_texture *texture = &one->model->asset->textures.at[index];
-  if (gd_type(kept) == GDEXTENSION_VARIANT_TYPE_NIL) {
-    gd_variant made = texture->bytes.count ? decoded_texture(texture)
-                      : texture->path[0]   ? texture_beside(one, texture)
-                                           : gd_nil();
-    *kept = gd_as_object(&made) ? made : gd_bool(false);
-  }
-  return gd_copy(kept);
-}
-
-static void set_texture(const gd_variant *material, int64_t parameter, gd_variant texture) {
-  if (gd_as_object(&texture)) GD_DO(material, "set_texture", gd_int(parameter), gd_copy(&texture));
-  gd_free(&texture);
-}
-
-/* The file's colours are linear, Godot's albedo is not. */
-static float from_linear(float value) {
-  return value <= 0.0031308f ? 12.92f * value : 1.055f * powf(value, 1 / 2.4f) - 0.055f;
-}
-
-static gd_variant make_material(const soft_character *one, const sbf_material *m) {
-  gd_variant made = gd_new("StandardMaterial3D");
-  GD_DO(&made, "set_albedo",
-      gd_color_value((gd_color){from_linear(m->base_color.x), from_linear(m->base_color.y),
-          from_linear(m->base_color.z), m->base_color.w}));
-  GD_DO(&made, "set_metallic", gd_float(m->metallic));
-  GD_DO(&made, "set_roughness", gd_float(m->roughness));
-  set_texture(&made, TEXTURE_ALBEDO, texture_of(one, m->base_color_texture));
-  if (m->metallic_roughness_texture >= 0) { /* metallic in blue, roughness in green, as in glTF */
-    set_texture(&made, TEXTURE_METALLIC, texture_of(one, m->metallic_roughness_texture));
-    set_texture(&made, TEXTURE_ROUGHNESS, texture_of(one, m->metallic_roughness_texture));
-    GD_DO(&made, "set_metallic_texture_channel", gd_int(CHANNEL_BLUE));
-    GD_DO(&made, "set_roughness_texture_channel", gd_int(CHANNEL_GREEN));
-  }
-  if (m->emissive.x > 0 || m->emissive.y > 0 || m->emissive.z > 0) {
-    GD_DO(&made, "set_feature", gd_int(0), gd_bool(true));
-    GD_DO(&made, "set_emission",
-        gd_color_value((gd_color){
-            from_linear(m->emissive.x), from_linear(m->emissive.y), from_linear(m->emissive.z), 1}));
-  }
-  if (m->alpha_mode == SBF_ALPHA_MODE_BLEND) GD_DO(&made, "set_transparency", gd_int(1));
-  if (m->alpha_mode == SBF_ALPHA_MODE_MASK) {
-    GD_DO(&made, "set_transparency", gd_int(2));
-    GD_DO(&made, "set_alpha_scissor_threshold", gd_float(m->alpha_cutoff));
-  }
-  if (m->double_sided) GD_DO(&made, "set_cull_mode", gd_int(2));
-  return made;
-}
-
-/* Shared by all nodes with the asset, as resources are. */
-static gd_variant material_of(const soft_character *one, const sbf_render_mesh *mesh, uint32_t slot) {
-  int32_t index = slot < mesh->material_slots.count ? mesh->material_slots.at[slot].material : SBF_NONE;
-  gd_variant *kept = soft_model_material(one->model, index);
-  if (!kept) return gd_new("StandardMaterial3D");
-  if (gd_type(kept) == GDEXTENSION_VARIANT_TYPE_NIL)
-    *kept = make_material(one, &one->model->asset->materials.at[index]);
-  return gd_copy(kept);
-}
-
 /* ---- Making ---- */
+
+/* Any, until the first update. */
+static gd_variant tangents_of(uint32_t count) {
+  gd_variant tangents = gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT32_ARRAY, 4 * (int64_t)count);
+  float *numbers = gd_floats(&tangents);
+  for (uint32_t i = 0; i < count; i++) numbers[4 * i] = numbers[4 * i + 3] = 1;
+  return tangents;
+}
 
 static bool add_surface(
     shown_mesh *shown, const soft_character *one, const sbf_render_mesh *mesh, uint32_t slot) {
   shown_surface *surface = &shown->surfaces[shown->surface_count];
   surface_vertices *v = &surface->vertices;
-  if (!surface_vertices_make(v, mesh, slot, shown->corners)) return false;
+  int32_t index = slot < mesh->material_slots.count ? mesh->material_slots.at[slot].material : SBF_NONE;
+  const sbf_material *material = index >= 0 ? &one->model->asset->materials.at[index] : NULL;
+  if (!surface_vertices_make(v, mesh, slot, shown->corners, soft_material_uv(material))) return false;
   if (!v->index_count) return surface_vertices_free(v), true;
   gd_variant arrays = gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY);
   gd_variant points = gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY, v->count);
@@ -177,10 +85,21 @@ static bool add_surface(
     memcpy(gd_vector2s(&uvs), v->uvs, v->count * sizeof *v->uvs);
     gd_put(&arrays, ARRAY_TEX_UV, uvs);
   }
+  const sbf_uv_transform *turn = soft_material_uv(material);
+  surface->sine = turn ? sinf(turn->rotation) : 0, surface->cosine = turn ? cosf(turn->rotation) : 1;
+  surface->has_tangents = v->uvs && material && material->normal_texture >= 0;
+  shown->tangents = shown->tangents || surface->has_tangents;
+  if (surface->has_tangents) gd_put(&arrays, ARRAY_TANGENT, tangents_of(v->count));
+  if (v->colors) {
+    gd_variant colors = gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_COLOR_ARRAY, v->count);
+    memcpy(gd_colors(&colors), v->colors, v->count * sizeof *v->colors);
+    gd_put(&arrays, ARRAY_COLOR, colors);
+  }
   GD_DO(&shown->mesh, "add_surface_from_arrays", gd_int(PRIMITIVE_TRIANGLES), arrays,
       gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY), gd_empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY),
       gd_int(FORMAT_DYNAMIC));
-  GD_DO(&shown->mesh, "surface_set_material", gd_int(shown->surface_count), material_of(one, mesh, slot));
+  GD_DO(
+      &shown->mesh, "surface_set_material", gd_int(shown->surface_count), soft_material_of(one, mesh, slot));
   int64_t format = gd_take_int(GD_CALL(&shown->mesh, "surface_get_format", gd_int(shown->surface_count)));
   surface->normals_at = (uint32_t)gd_take_int(GD_CALL(
       &server, "mesh_surface_get_format_offset", gd_int(format), gd_int(v->count), gd_int(ARRAY_NORMAL)));
@@ -226,11 +145,13 @@ character_mesh *character_mesh_make(soft_character *one) {
   }
   made->positions = malloc((points + 1) * sizeof *made->positions);
   made->normals = malloc((size_t)(points + corners + 1) * sizeof *made->normals);
-  bool good = made->meshes && made->positions && made->normals;
+  made->tangents = malloc((points + 1) * sizeof *made->tangents);
+  bool good = made->meshes && made->positions && made->normals && made->tangents;
   for (uint32_t i = 0; good && i < asset->render_meshes.count; i++)
     good = show(&made->meshes[made->count++], one, i);
   if (good) {
     character_mesh_dress(made, one);
+    if (gd_size(&one->surface_materials)) character_mesh_dress_surfaces(made, one);
     return made;
   }
   gd_error("no memory for a character's mesh");
@@ -254,7 +175,54 @@ void character_mesh_free(character_mesh *mesh) {
   free(mesh->meshes);
   free(mesh->positions);
   free(mesh->normals);
+  free(mesh->tangents);
   free(mesh);
+}
+
+/* A key is the mesh's name, a slash and the surface's number. Returns false where there is no such surface.
+ */
+static bool dress_surface(
+    character_mesh *mesh, const soft_character *one, const gd_variant *key, gd_variant material) {
+  char text[256];
+  gd_as_text(key, text, sizeof text);
+  char *slash = strrchr(text, '/'), *rest = NULL;
+  long surface = slash ? strtol(slash + 1, &rest, 10) : -1;
+  bool found = false;
+  if (slash) *slash = 0;
+  for (uint32_t i = 0; rest && rest != slash + 1 && !*rest && i < mesh->count && !found; i++) {
+    const shown_mesh *shown = &mesh->meshes[i];
+    const sbf_render_mesh *of = &one->model->asset->render_meshes.at[shown->render_mesh];
+    found = (!strcmp(of->name, text) || !strcmp(of->id, text)) && surface >= 0 &&
+            surface < (long)shown->surface_count;
+    if (found) GD_DO(&shown->instance, "set_surface_override_material", gd_int(surface), gd_copy(&material));
+  }
+  gd_free(&material);
+  return found;
+}
+
+void character_mesh_dress_surfaces(character_mesh *mesh, const soft_character *one) {
+  if (!mesh) return;
+  gd_variant keys = GD_CALL(&one->surface_materials, "keys");
+  for (uint32_t i = 0; i < mesh->count; i++)
+    for (uint32_t k = 0; k < mesh->meshes[i].surface_count; k++)
+      GD_DO(&mesh->meshes[i].instance, "set_surface_override_material", gd_int(k), gd_nil());
+  for (int64_t i = 0, count = gd_size(&keys); i < count; i++) {
+    gd_variant key = gd_at(&keys, i), material = GD_CALL(&one->surface_materials, "get", gd_copy(&key));
+    bool is_material =
+        !gd_as_object(&material) || gd_take_bool(GD_CALL(&material, "is_class", gd_string("Material")));
+    if (!is_material) gd_assign(&material, gd_nil());
+    if (!dress_surface(mesh, one, &key, material) || !is_material) {
+      char text[256], message[512];
+      gd_as_text(&key, text, sizeof text);
+      snprintf(message, sizeof message, "surface_materials: %s: %s", text,
+          is_material
+              ? "a key is a render mesh's name, a slash and the number of one of its surfaces, as Head/0"
+              : "that is no Material");
+      soft_character_error(one, message);
+    }
+    gd_free(&key);
+  }
+  gd_free(&keys);
 }
 
 void character_mesh_dress(character_mesh *mesh, const soft_character *one) {
@@ -289,14 +257,34 @@ static uint32_t on_octahedron(sbf_vec3 n) {
   return u | v << 16;
 }
 
-static void write_surface(
-    shown_surface *surface, const sbf_vec3 *positions, const sbf_vec3 *normals, bool corners) {
+/* Tangents lie in the half of the square that their sign says. */
+static uint32_t on_half_octahedron(sbf_vec4 tangent) {
+  uint32_t packed = on_octahedron((sbf_vec3){tangent.x, tangent.y, tangent.z}), u = packed & 0xffff;
+  float v = fmaxf((float)(packed >> 16) / 65535, 1.0f / 32767) * 0.5f + 0.5f;
+  uint32_t folded = (uint32_t)((tangent.w >= 0 ? v : 1 - v) * 65535);
+  if (!u && folded == 65535) u = 65535; /* the same direction; the other one marks compressed surfaces */
+  return u | folded << 16;
+}
+
+/* The tangent of turned texture coordinates. */
+static sbf_vec4 turned_tangent(const shown_surface *surface, sbf_vec4 t, sbf_vec3 n) {
+  sbf_vec3 b = turn_cross(n, (sbf_vec3){t.x, t.y, t.z});
+  float c = surface->cosine, s = -surface->sine * t.w;
+  return (sbf_vec4){c * t.x + s * b.x, c * t.y + s * b.y, c * t.z + s * b.z, t.w};
+}
+
+static void write_surface(shown_surface *surface, const character_mesh *mesh, bool corners) {
   const surface_vertices *v = &surface->vertices;
+  const sbf_vec3 *positions = mesh->positions, *normals = mesh->normals;
   uint8_t *bytes = gd_bytes(&surface->bytes);
   for (uint32_t i = 0; i < v->count; i++) {
     uint32_t normal = on_octahedron(normals[corners ? v->corners[i] : v->points[i]]);
     memcpy(bytes + 12 * (size_t)i, &positions[v->points[i]], 12);
     memcpy(bytes + surface->normals_at + (size_t)surface->normal_step * i, &normal, sizeof normal);
+    if (!surface->has_tangents) continue;
+    sbf_vec3 n = normals[corners ? v->corners[i] : v->points[i]];
+    uint32_t tangent = on_half_octahedron(turned_tangent(surface, mesh->tangents[v->points[i]], n));
+    memcpy(bytes + surface->normals_at + (size_t)surface->normal_step * i + 4, &tangent, sizeof tangent);
   }
 }
 
@@ -307,8 +295,8 @@ void character_mesh_update(character_mesh *mesh, soft_character *one) {
     shown_mesh *shown = &mesh->meshes[i];
     const sbf_polygon_mesh *form = &one->model->asset->render_meshes.at[shown->render_mesh].mesh;
     uint32_t count = form->positions.count;
-    sbr_character_get_skin(
-        one->world, one->id, shown->render_mesh, mesh->positions, mesh->normals, NULL, count);
+    sbr_character_get_skin(one->world, one->id, shown->render_mesh, mesh->positions, mesh->normals,
+        shown->tangents ? mesh->tangents : NULL, count);
     if (shown->corners)
       sbr_character_get_corner_normals(
           one->world, one->id, shown->render_mesh, mesh->normals, form->polygon_points.count);
@@ -319,7 +307,7 @@ void character_mesh_update(character_mesh *mesh, soft_character *one) {
       high = (sbf_vec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
     }
     for (uint32_t k = 0; k < shown->surface_count; k++) {
-      write_surface(&shown->surfaces[k], mesh->positions, mesh->normals, shown->corners);
+      write_surface(&shown->surfaces[k], mesh, shown->corners);
       GD_DO(&shown->mesh, "surface_update_vertex_region", gd_int(k), gd_int(0),
           gd_copy(&shown->surfaces[k].bytes));
     }

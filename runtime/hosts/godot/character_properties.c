@@ -80,6 +80,18 @@ static void set_material(void *self, const gd_variant *const *arguments, gd_vari
   character_mesh_dress(one->mesh, one);
 }
 
+static void get_surface_materials(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  (void)arguments;
+  gd_assign(result, GD_CALL(&((soft_character *)self)->surface_materials, "duplicate"));
+}
+
+static void set_surface_materials(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  soft_character *one = self;
+  (void)result;
+  gd_assign(&one->surface_materials, GD_CALL(arguments[0], "duplicate"));
+  character_mesh_dress_surfaces(one->mesh, one);
+}
+
 SETTING(scheme, int, SBF_SCHEME_AUTOMATIC, SBF_SCHEME_BLOCK_DESCENT, soft_character_make(one))
 SETTING(substeps, int, 0, 1024, soft_character_make(one))
 SETTING(level, int, 0, 64, soft_character_make(one))
@@ -225,6 +237,7 @@ const gd_property soft_character_properties[] = {
     SHOWN("meet_others", BOOL, 0, NULL, "is_", collide_with_others),
     GROUP("Geometry"),
     RESOURCE("material_override", "Material", material),
+    SHOWN("surface_materials", DICTIONARY, 0, NULL, "get_", surface_materials),
     CHOICE("cast_shadow", "GeometryInstance3D.ShadowCastingSetting", "Off,On,Double-Sided,Shadows Only",
         cast_shadow),
     SHOWN("layers", INT, HINT_LAYERS_3D_RENDER, NULL, "get_", layers),

@@ -31,6 +31,7 @@
   X(packed_byte_array_operator_index, PackedByteArrayOperatorIndex)                                          \
   X(packed_int32_array_operator_index, PackedInt32ArrayOperatorIndex)                                        \
   X(packed_float32_array_operator_index, PackedFloat32ArrayOperatorIndex)                                    \
+  X(packed_color_array_operator_index, PackedColorArrayOperatorIndex)                                        \
   X(packed_vector2_array_operator_index, PackedVector2ArrayOperatorIndex)                                    \
   X(packed_vector3_array_operator_index, PackedVector3ArrayOperatorIndex)                                    \
   X(classdb_construct_object2, ClassdbConstructObject2)                                                      \

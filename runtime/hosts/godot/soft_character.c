@@ -57,6 +57,7 @@ static void begin(void *self, GDExtensionObjectPtr object) {
   one->node = gd_object(object);
   one->asset_value = gd_nil();
   one->material = gd_nil();
+  one->surface_materials = gd_empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
   one->skeleton = gd_nil();
   one->editor = gd_take_bool(GD_CALL(&engine, "is_editor_hint"));
   one->settings = (soft_settings){.gravity_scale = 1,
@@ -79,6 +80,7 @@ static void end(void *self) {
   pose_driver_free(one);
   gd_free(&one->asset_value);
   gd_free(&one->material);
+  gd_free(&one->surface_materials);
   gd_free(&one->node);
 }
 

@@ -63,9 +63,10 @@ typedef struct surface_vertex {
 } surface_vertex;
 
 typedef struct soft_character {
-  gd_variant node;        /* itself, without a reference */
-  gd_variant asset_value; /* the resource, with a reference; nil: none */
-  gd_variant material;    /* with a reference: material of all its meshes */
+  gd_variant node;              /* itself, without a reference */
+  gd_variant asset_value;       /* the resource, with a reference; nil: none */
+  gd_variant material;          /* with a reference: material of all its meshes */
+  gd_variant surface_materials; /* Dictionary: of single surfaces */
   soft_settings settings;
   bool editor;
 
@@ -207,6 +208,8 @@ void character_mesh_free(character_mesh *mesh);
 void character_mesh_update(character_mesh *mesh, soft_character *one);
 /* Applies material, shadows and layers of the settings. */
 void character_mesh_dress(character_mesh *mesh, const soft_character *one);
+/* Applies the materials of single surfaces. */
+void character_mesh_dress_surfaces(character_mesh *mesh, const soft_character *one);
 /* The MeshInstance3D of a render mesh; nil: none. */
 gd_variant character_mesh_instance(const character_mesh *mesh, int64_t render_mesh);
 

@@ -280,6 +280,12 @@ float *gd_floats(const gd_variant *packed) {
       inside(GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT32_ARRAY, packed), 0);
 }
 
+gd_color *gd_colors(const gd_variant *packed) {
+  if (!gd_size(packed)) return NULL;
+  return (gd_color *)gd.packed_color_array_operator_index(
+      inside(GDEXTENSION_VARIANT_TYPE_PACKED_COLOR_ARRAY, packed), 0);
+}
+
 sbf_vec2 *gd_vector2s(const gd_variant *packed) {
   if (!gd_size(packed)) return NULL;
   return (sbf_vec2 *)gd.packed_vector2_array_operator_index(

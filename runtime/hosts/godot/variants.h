@@ -80,6 +80,7 @@ int64_t gd_size(const gd_variant *array);
 uint8_t *gd_bytes(const gd_variant *packed);
 int32_t *gd_int32s(const gd_variant *packed);
 float *gd_floats(const gd_variant *packed);
+gd_color *gd_colors(const gd_variant *packed);
 sbf_vec2 *gd_vector2s(const gd_variant *packed);
 sbf_vec3 *gd_vector3s(const gd_variant *packed);
 /* An array of that type with `count` zeros. */

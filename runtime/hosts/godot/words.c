@@ -60,6 +60,9 @@ static const gd_help character_words[] = {
                     "parts of this character. It costs time."},
     {"material_override",
         "Material of all meshes instead of the file's. For one surface see [method get_mesh_instance]."},
+    {"surface_materials",
+        "Materials of single surfaces: the key is the name of a render mesh, a slash and the number of "
+        "its surface, as Head/0. They are kept when the character is created again."},
     {"cast_shadow", "Whether the meshes cast shadows."},
     {"layers", "Render layers of the meshes, for cameras and lights."},
     {"drive",
