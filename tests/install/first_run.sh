@@ -45,10 +45,11 @@ as_root() {
   shift
   within "$where" HOME=$root_home sh -c "cd \$HOME/sbfmt && $*"
 }
+# The cache is root's: others only read it.
 as_user() {
   where=$1
   shift
-  within "$where" HOME=/srv/guest setpriv --reuid guest --regid guest --clear-groups sh -c "cd \$HOME/sbfmt && $*"
+  within "$where" HOME=/srv/guest CCACHE_READONLY=1 CCACHE_TEMPDIR=/tmp setpriv --reuid guest --regid guest --clear-groups sh -c "cd \$HOME/sbfmt && $*"
 }
 
 # make_base SYSTEM: in $folder/SYSTEM
