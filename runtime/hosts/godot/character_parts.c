@@ -15,7 +15,7 @@ void soft_character_dress_parts(soft_character *one) {
     physics_bodies_except(one->bodies, one->parts);
     if (one->placed) physics_parts_move(one->parts, one);
   }
-  physics_parts_dress(one->parts, one);
+  physics_parts_apply_settings(one->parts, one);
 }
 
 int32_t soft_character_bone(const soft_character *one, const gd_variant *wanted) {

@@ -94,7 +94,7 @@ physics_parts *physics_parts_make(const soft_character *one) {
   for (uint32_t i = 0; i < count; i++) make_shape(made, &shapes[i]);
   free(shapes);
   except_carriers(made, &one->node);
-  physics_parts_dress(made, one);
+  physics_parts_apply_settings(made, one);
   return made;
 }
 
@@ -140,7 +140,7 @@ static void make_area(physics_parts *parts, const soft_character *one) {
   GD_DO(&parts->area, "set_global_transform", gd_transform_value(parts->last));
 }
 
-void physics_parts_dress(physics_parts *parts, const soft_character *one) {
+void physics_parts_apply_settings(physics_parts *parts, const soft_character *one) {
   if (!parts) return;
   GD_DO(&parts->server, "body_set_collision_layer", gd_copy(&parts->body),
       gd_int(one->settings.collision_layer & UINT32_MAX));
@@ -181,7 +181,7 @@ static void enter(physics_parts *parts, const soft_character *one) {
     GD_DO(&parts->server, "body_set_space", gd_copy(&parts->body), GD_CALL(&world, "get_space"));
   gd_free(&world);
   parts->placed = true;
-  physics_parts_dress(parts, one);
+  physics_parts_apply_settings(parts, one);
 }
 
 void physics_parts_move(physics_parts *parts, const soft_character *one) {

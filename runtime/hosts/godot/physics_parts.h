@@ -11,7 +11,7 @@ void physics_parts_free(physics_parts *parts);
 /* Moves the parts to the character's present pose; enters the space of its node. */
 void physics_parts_move(physics_parts *parts, const soft_character *one);
 /* Applies layers and picking of the settings. */
-void physics_parts_dress(physics_parts *parts, const soft_character *one);
+void physics_parts_apply_settings(physics_parts *parts, const soft_character *one);
 /* Godot's own contact solver passes over this body: the runtime moves it. */
 void physics_parts_except(physics_parts *parts, const gd_variant *body, bool excepted);
 
