@@ -115,7 +115,7 @@ def write_table(path):
                  cell("body_speed_step", f"{100 * r['body_speed_step'] / leg:.2f}"),
                  f"{r['distance'] / leg / walk.seconds:.2f}", f"{mean(r, 'duty'):.2f}", f"{mean(r, 'stride') / leg:.2f}"]
         print("| " + " | ".join(cells) + " |")
-    print(f"\n{len(walks) - missed} of {len(walks)} walks meet all that was asked for.\n")
+    print(f"\n{len(walks) - missed} of {len(walks)} walks meet all bounds.\n")
 
 
 if __name__ == "__main__":
