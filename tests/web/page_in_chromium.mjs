@@ -87,8 +87,11 @@ const hurried = await tab.evaluate(async () => {
   viewer.draw = () => { frames++; };
   viewer.pause();
   let frames = 0;
-  await new Promise((done) => setTimeout(done, 2500));
-  const said = document.querySelector('#pace').textContent;
+  const pace = () => document.querySelector('#pace').textContent;
+  // A busy machine draws few frames a second.
+  for (const began = performance.now(); (frames < 6 || !pace().startsWith('slowed')) && performance.now() - began < 60000;)
+    await new Promise((done) => setTimeout(done, 100));
+  const said = pace();
   Object.assign(viewer, { draw, step });
   return { ...covered, frames, said };
 });
