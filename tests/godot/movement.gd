@@ -7,7 +7,7 @@ var aside: SoftCharacter3D
 var walled: SoftCharacter3D
 var led: SoftCharacter3D
 var moved: SoftCharacter3D
-var carried: SoftCharacter3D
+var passenger: SoftCharacter3D
 var parent := Node3D.new()
 var agent := NavigationAgent3D.new()
 var region := NavigationRegion3D.new()
@@ -35,7 +35,7 @@ func _initialize() -> void:
 	walled = add_walker("walled", Vector3(12, 0, 0))
 	add_box("StaticBody3D", Vector3(3, 1, 0.2), Vector3(12, 0.5, 1.6))
 	moved = add_walker("moved", Vector3(18, 0, 0))
-	carried = add_walker("carried", Vector3(24, 0, 0))
+	passenger = add_walker("passenger", Vector3(24, 0, 0))
 	root.add_child(parent)
 	led = add_walker("led", Vector3(-10, 0, 0))
 	led.add_child(agent)
@@ -60,12 +60,12 @@ func mesh_around() -> NavigationMesh:
 func _physics_process(delta: float) -> bool:
 	frame += 1
 	if frame == 10:
-		carried.reparent(parent)
+		passenger.reparent(parent)
 	if frame < 20:
 		return false
 	if frame == 20:
 		agent.target_position = Vector3(-10, 0, 4.5)
-		for one: SoftCharacter3D in [straight, aside, walled, led, moved, carried]: before[str(one.name)] = one.global_position
+		for one: SoftCharacter3D in [straight, aside, walled, led, moved, passenger]: before[str(one.name)] = one.global_position
 		aside.max_turn_speed = 1.5
 	if frame <= 320:
 		straight.velocity = Vector3(0, 0, 0.4)
@@ -82,7 +82,7 @@ func _physics_process(delta: float) -> bool:
 		led.move_and_slide()
 		arrived = agent.is_navigation_finished()
 	corner = corner or (led.position.x > -8.6 and led.position.z > 0.5)
-	for one: SoftCharacter3D in [straight, aside, walled, led, moved, carried]:
+	for one: SoftCharacter3D in [straight, aside, walled, led, moved, passenger]:
 		var name := str(one.name)
 		longest[name] = maxf(longest[name], one.global_position.distance_to(before[name]))
 		before[name] = one.global_position
@@ -97,7 +97,7 @@ func _physics_process(delta: float) -> bool:
 	near(aside.rotation.y, PI / 2, 0.05, "it turned to its velocity by")
 	check(walled.position.z < 1.4 and stopped > 100, "at the wall it is at %s, and was stopped %d times" % [walled.position, stopped])
 	near(moved.rotation.y, 1, 0.03, "how far it turned with its node")
-	near(carried.global_position.x, 25.5, 0.1, "how far its parent took it")
+	near(passenger.global_position.x, 25.5, 0.1, "how far its parent took it")
 	check(arrived and led.position.distance_to(Vector3(-10, 0, 4.5)) < 0.4 and corner, "the agent led it to %s" % led.position)
 	for name: String in steps:
 		check(steps[name] > 8 and longest[name] < 0.05, "%s: %d steps, it moved by %f m in a frame" % [name, steps[name], longest[name]])

@@ -45,7 +45,7 @@ typedef struct sbfi_paper_body {
   sbfi_array nodes;           /* uint32_t, ids, four per tetrahedron */
   sbfi_array tetrahedron_ids; /* uint32_t */
   sbfi_paper_surface surface;
-  sbfi_array carried; /* sbfi_paper_embedding */
+  sbfi_array embedded_vertices; /* sbfi_paper_embedding */
   float attributes[SBFI_PAPER_ATTRIBUTES];
   bool given[SBFI_PAPER_ATTRIBUTES];
 } sbfi_paper_body;

@@ -128,7 +128,7 @@ static sbf_status fill_tet_mesh(sbfi_conversion *c, const sbfi_paper_body *from,
 /* `nodes`: indices of each tetrahedron's four nodes as in the file. */
 static sbf_status fill_embedding(sbfi_conversion *c, const sbfi_paper_body *from, const sbf_uint4 *nodes,
     const uint32_t *new_from_old, int32_t mesh, sbf_level *level) {
-  uint32_t count = (uint32_t)from->carried.count;
+  uint32_t count = (uint32_t)from->embedded_vertices.count;
   sbf_embedding *embedding = sbfi_convert_allocate(c, 1, sizeof *embedding);
   uint32_t *vertices = sbfi_convert_allocate(c, count, sizeof *vertices);
   sbf_uint4 *points = sbfi_convert_allocate(c, count, sizeof *points);
@@ -138,13 +138,13 @@ static sbf_status fill_embedding(sbfi_conversion *c, const sbfi_paper_body *from
   if (!sbfi_paper_table_make(c, &vertex_table, &from->surface.vertices.ids, "vertices") ||
       !sbfi_paper_table_make(c, &tetrahedron_table, &from->tetrahedron_ids, "tetrahedra"))
     return sbfi_paper_fault(c);
-  const sbfi_paper_embedding *carried = from->carried.at;
+  const sbfi_paper_embedding *embedded_vertices = from->embedded_vertices.at;
   for (uint32_t i = 0; i < count; i++) {
     uint32_t index;
-    if (!sbfi_paper_find(c, &vertex_table, carried[i].vertex, "vertices", &vertices[i]) ||
-        !sbfi_paper_find(c, &tetrahedron_table, carried[i].tetrahedron, "tetrahedra", &index))
+    if (!sbfi_paper_find(c, &vertex_table, embedded_vertices[i].vertex, "vertices", &vertices[i]) ||
+        !sbfi_paper_find(c, &tetrahedron_table, embedded_vertices[i].tetrahedron, "tetrahedra", &index))
       return sbfi_paper_fault(c);
-    const float *v = carried[i].weights;
+    const float *v = embedded_vertices[i].weights;
     for (int k = 0; k < 4; k++) points[i].at[k] = new_from_old[nodes[index].at[k]];
     weights[i] = (sbf_vec4){v[0], v[1], v[2], (float)(1.0 - (double)v[0] - (double)v[1] - (double)v[2])};
   }
@@ -176,7 +176,7 @@ static sbf_status fill_lattice(
         sbfi_paper_find(c, &table, ((const uint32_t *)from->nodes.at)[i], "", &nodes[i / 4].at[i % 4]);
   }
   if (status == SBF_OK) status = sbfi_convert_tet_body(c, &tets, name, body, &new_from_old);
-  if (status == SBF_OK && from->carried.count && mesh >= 0) {
+  if (status == SBF_OK && from->embedded_vertices.count && mesh >= 0) {
     sbf_level level = body->levels.at[0], *changed = sbfi_convert_allocate(c, 1, sizeof *changed);
     status = changed ? fill_embedding(c, from, nodes, new_from_old, mesh, &level) : sbfi_convert_no_memory(c);
     if (status == SBF_OK) {

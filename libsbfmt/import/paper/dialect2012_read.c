@@ -173,12 +173,12 @@ static bool read_node(paper_reader *r, attribute_list attributes) {
 
 static bool read_embedding(paper_reader *r, attribute_list attributes) {
   static const char *const names[3] = {"v0", "v1", "v2"};
-  sbfi_paper_embedding *carried = push(r, &r->body->carried);
-  if (!carried || !read_id(r, attributes, "render_id", 0, &carried->vertex) ||
-      !read_id(r, attributes, "tetr_id", 0, &carried->tetrahedron))
+  sbfi_paper_embedding *embedded_vertices = push(r, &r->body->embedded_vertices);
+  if (!embedded_vertices || !read_id(r, attributes, "render_id", 0, &embedded_vertices->vertex) ||
+      !read_id(r, attributes, "tetr_id", 0, &embedded_vertices->tetrahedron))
     return false;
   for (int k = 0; k < 3; k++)
-    if (!read_f32(r, value_of(attributes, names[k]), names[k], &carried->weights[k])) return false;
+    if (!read_f32(r, value_of(attributes, names[k]), names[k], &embedded_vertices->weights[k])) return false;
   return true;
 }
 
@@ -225,7 +225,7 @@ static void init_body(sbfi_paper_body *body, const sbf_allocator *allocator) {
   sbfi_array_init(&body->tetrahedron_ids, allocator, sizeof(uint32_t));
   sbfi_array_init(&body->surface.sizes, allocator, sizeof(uint32_t));
   sbfi_array_init(&body->surface.corners, allocator, sizeof(sbfi_paper_corner));
-  sbfi_array_init(&body->carried, allocator, sizeof(sbfi_paper_embedding));
+  sbfi_array_init(&body->embedded_vertices, allocator, sizeof(sbfi_paper_embedding));
 }
 
 static void free_bodies(sbfi_array *bodies) {
@@ -234,7 +234,7 @@ static void free_bodies(sbfi_array *bodies) {
     sbfi_array *arrays[] = {&b->lattice.ids, &b->lattice.values, &b->nodes, &b->tetrahedron_ids,
         &b->surface.vertices.ids, &b->surface.vertices.values, &b->surface.normals.ids,
         &b->surface.normals.values, &b->surface.coordinates.ids, &b->surface.coordinates.values,
-        &b->surface.sizes, &b->surface.corners, &b->carried};
+        &b->surface.sizes, &b->surface.corners, &b->embedded_vertices};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) sbfi_array_free(arrays[k]);
   }
   sbfi_array_free(bodies);

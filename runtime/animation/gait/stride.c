@@ -265,9 +265,9 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
     float widest =
         SBRI_WIDEST * rig->stand.reach * input->scale / (1 + (groups - 1) * SLACK); /* during a step */
     if (s.level && longest * soon > widest) longest = widest / soon;
-    float gain = s.speed > 0 ? soon / s.speed : 1;
-    s.duration_s = sbri_clamp(0.9f * s.available_s / gain, SHORTEST * usual, longest);
-    needed = half_per_second * gain * s.duration_s;
+    float speed_ratio = s.speed > 0 ? soon / s.speed : 1;
+    s.duration_s = sbri_clamp(0.9f * s.available_s / speed_ratio, SHORTEST * usual, longest);
+    needed = half_per_second * speed_ratio * s.duration_s;
     if (needed > max) needed = max;
   }
   float trigger = rig->gait->step_trigger * input->scale;

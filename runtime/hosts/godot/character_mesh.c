@@ -248,9 +248,9 @@ static uint32_t on_octahedron(sbf_vec3 n) {
   float sum = fabsf(n.x) + fabsf(n.y) + fabsf(n.z);
   float x = sum > 0 ? n.x / sum : 0, y = sum > 0 ? n.y / sum : 1;
   if (n.z < 0) {
-    float folded = copysignf(1 - fabsf(y), x);
+    float mapped = copysignf(1 - fabsf(y), x);
     y = copysignf(1 - fabsf(x), y);
-    x = folded;
+    x = mapped;
   }
   uint32_t u = (uint32_t)fmaxf(0, fminf(65535, (x * 0.5f + 0.5f) * 65535));
   uint32_t v = (uint32_t)fmaxf(0, fminf(65535, (y * 0.5f + 0.5f) * 65535));
@@ -261,9 +261,9 @@ static uint32_t on_octahedron(sbf_vec3 n) {
 static uint32_t on_half_octahedron(sbf_vec4 tangent) {
   uint32_t packed = on_octahedron((sbf_vec3){tangent.x, tangent.y, tangent.z}), u = packed & 0xffff;
   float v = fmaxf((float)(packed >> 16) / 65535, 1.0f / 32767) * 0.5f + 0.5f;
-  uint32_t folded = (uint32_t)((tangent.w >= 0 ? v : 1 - v) * 65535);
-  if (!u && folded == 65535) u = 65535; /* the same direction; the other one marks compressed surfaces */
-  return u | folded << 16;
+  uint32_t mapped = (uint32_t)((tangent.w >= 0 ? v : 1 - v) * 65535);
+  if (!u && mapped == 65535) u = 65535; /* the same direction; the other one marks compressed surfaces */
+  return u | mapped << 16;
 }
 
 /* The tangent of turned texture coordinates. */
