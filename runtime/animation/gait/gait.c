@@ -91,10 +91,10 @@ typedef struct velocity_change {
 
 static velocity_change limited_change(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  float inverse_mass = 1 - sbri_exp(-input->tick_s / SMOOTHING_S), fraction = 1;
-  float ahead = (state->pace.step_limit * input->forward - state->motion.forward) * inverse_mass;
-  float aside = (state->pace.step_limit * input->sideways - state->motion.sideways) * inverse_mass;
-  float turn = (state->pace.step_limit * input->turn - state->motion.turn) * inverse_mass;
+  float approach = 1 - sbri_exp(-input->tick_s / SMOOTHING_S), fraction = 1;
+  float ahead = (state->pace.step_limit * input->forward - state->motion.forward) * approach;
+  float aside = (state->pace.step_limit * input->sideways - state->motion.sideways) * approach;
+  float turn = (state->pace.step_limit * input->turn - state->motion.turn) * approach;
   if (rig->leg_count) { /* limited by the fastest home */
     float step_s = rig->gait->step_duration, round = turn * rig->stand.spread * input->scale;
     float brisk_s = step_s > BRISK_S && sbri_stands_level(rig, state, input->scale) ? BRISK_S : step_s;
