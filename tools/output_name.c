@@ -4,7 +4,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-static bool ends_with(const char *path, const char *ending) {
+bool output_name_ends(const char *path, const char *ending) {
   size_t length = strlen(path), tail = strlen(ending);
   return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
@@ -21,7 +21,7 @@ bool output_name_check(const cli_call *call, const char *option, const char *con
   }
   if (!path || (exists && !S_ISREG(facts.st_mode))) return true;
   for (int i = 0; endings[i]; i++) {
-    if (ends_with(path, endings[i])) return true;
+    if (output_name_ends(path, endings[i])) return true;
     if (at < sizeof known)
       at += (size_t)snprintf(known + at, sizeof known - at, "%s%s", i ? ", " : "", endings[i]);
   }
@@ -31,6 +31,6 @@ bool output_name_check(const cli_call *call, const char *option, const char *con
 }
 
 bool output_name_of_bundle(const cli_call *call, const char *option) {
-  static const char *const endings[] = {".sbf", ".sbfz", NULL};
+  static const char *const endings[] = {".sbf", ".sbfz", ".glb", NULL};
   return output_name_check(call, option, endings);
 }

@@ -10,7 +10,10 @@
  * name. */
 bool output_name_check(const cli_call *call, const char *option, const char *const *endings);
 
-/* For a bundle: .sbf or .sbfz. */
+/* Whether a path has the extension, ignoring case. */
+bool output_name_ends(const char *path, const char *ending);
+
+/* For a bundle: .sbf, .sbfz or .glb. */
 bool output_name_of_bundle(const cli_call *call, const char *option);
 
 #endif

@@ -218,8 +218,8 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
     session_close(s);
     return false;
   }
-  *status = (int)sbf_load_file(
-      call->inputs[0], &(sbf_load_options){.report = cli_report, .user = call}, &s->asset, &error);
+  *status = (int)sbf_load_file(call->inputs[0],
+      &(sbf_load_options){.report = cli_report, .user = call, .with_images = true}, &s->asset, &error);
   if (*status == SBF_OK && !(choose_clip(s, call, &s->settings.clip) && has_rigid_parts(s, call))) {
     *status = SBF_FAILED;
     session_close(s);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "building.h"
@@ -15,6 +16,7 @@
 #include "pin_options.h"
 #include "saving.h"
 #include "sbfmt/convert.h"
+#include "sbfmt/gltf.h"
 #include "sbfmt/mechanics.h"
 
 enum { MAX_PATH = 4096 };
@@ -34,6 +36,7 @@ static void report(void *user, const sbf_diagnostic *diagnostic) {
 
 static bool is_bundle(const char *path) {
   const char *dot = strrchr(path, '.');
+  if (dot && strcasecmp(dot, ".glb") == 0) return sbf_gltf_has_soft_bodies(path);
   return dot && (strcmp(dot, ".sbf") == 0 || strcmp(dot, ".sbfz") == 0);
 }
 

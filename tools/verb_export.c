@@ -57,8 +57,8 @@ static int run(cli_call *call) {
   if (status != SBF_OK) return status;
   sbf_asset *asset;
   sbf_diagnostic error;
-  status = (int)sbf_load_file(
-      call->inputs[0], &(sbf_load_options){.report = cli_report, .user = call}, &asset, &error);
+  status = (int)sbf_load_file(call->inputs[0],
+      &(sbf_load_options){.report = cli_report, .user = call, .with_images = true}, &asset, &error);
   if (status == SBF_OK) {
     const sbf_export_options options = {.report = report,
         .user = call,

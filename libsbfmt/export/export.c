@@ -28,7 +28,11 @@ sbf_status sbf_export(
         .reporter = {options->report, options->user, 0, 0},
         .render_level = options->render_level,
         .folder = options->folder,
+        .images = options->images,
         .motion = options->motion && options->motion->frame_count ? options->motion : NULL,
+        .soft_bodies = options->soft_bodies,
+        .store = options->store,
+        .compression = options->compression ? options->compression : 6,
         .error = error};
     sbfi_text_init(&e.text, &e.allocator);
     sbf_status status = forms[i].write(&e);

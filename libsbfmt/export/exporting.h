@@ -15,8 +15,11 @@ typedef struct sbfi_export {
   /* As in the options. */
   uint32_t render_level;
   const char *folder;
+  const sbf_texture_list *images;
   const sbf_export_motion *motion; /* NULL if it has no frames */
-  sbfi_text text;                  /* of the file */
+  bool soft_bodies, store;
+  int compression; /* zlib level */
+  sbfi_text text;  /* of the file */
   sbf_diagnostic *error;
 } sbfi_export;
 

@@ -75,7 +75,9 @@ typedef enum sbfi_glb_type {
   SBFI_GLB_VEC4,
   SBFI_GLB_MAT4,
   SBFI_GLB_UINT,
-  SBFI_GLB_USHORT4
+  SBFI_GLB_USHORT,
+  SBFI_GLB_USHORT4,
+  SBFI_GLB_UBYTE4
 } sbfi_glb_type;
 
 enum { SBFI_GLB_NO_TARGET = 0, SBFI_GLB_VERTICES = 34962, SBFI_GLB_INDICES = 34963 };
@@ -105,6 +107,11 @@ void sbfi_glb_choose_meshes(sbfi_glb *g); /* fills g->meshes; before nodes and m
 void sbfi_glb_write_meshes(sbfi_glb *g);
 void sbfi_glb_write_nodes(sbfi_glb *g); /* and the skin */
 void sbfi_glb_write_clips(sbfi_glb *g);
+/* Whether a track of a clip becomes a channel: glTF has rules for keys. */
+bool sbfi_glb_writes_track(const sbf_clip *clip, uint32_t index);
+/* Appends the value of the extension SBF_soft_body. `json` is the file without it; the extension adds buffer
+ * views. */
+void sbfi_glb_write_soft_body(sbfi_glb *g, const sbfi_text *json, sbfi_text *extension);
 /* The motion's channels; after the meshes. */
 void sbfi_glb_write_motion(sbfi_glb *g);
 /* State for normals of morph targets; NULL if the mesh has none, or memory runs out. */

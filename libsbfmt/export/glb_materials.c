@@ -53,8 +53,9 @@ static void write_images(sbfi_glb *g) {
   for (uint32_t i = 0; i < textures.count && indices; i++) {
     const sbf_texture *texture = &textures.at[i];
     indices[i] = (int32_t)g->parts[SBFI_GLB_TEXTURES].count;
-    bool written = texture->bytes.count ? write_image(g, texture, texture->bytes.at, texture->bytes.count)
-                                        : read_image(g, texture);
+    sbf_u8_list given = texture->bytes;
+    if (!given.count && g->e->images && i < g->e->images->count) given = g->e->images->at[i].bytes;
+    bool written = given.count ? write_image(g, texture, given.at, given.count) : read_image(g, texture);
     if (written) continue;
     indices[i] = SBF_NONE;
     g->omitted_images++;

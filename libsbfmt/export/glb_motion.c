@@ -45,7 +45,7 @@ static void end(sbfi_glb *g, channels *c, const char *name) {
 
 /* glTF requires keys at increasing times from 0 on, the right number of values, and no duplicate
  * properties. */
-static bool fits(const sbf_clip *clip, uint32_t index) {
+bool sbfi_glb_writes_track(const sbf_clip *clip, uint32_t index) {
   const sbf_track *t = &clip->tracks.at[index];
   uint32_t width = t->property == SBF_TRACK_PROPERTY_ROTATION ? 4 : 3;
   if (t->interpolation == SBF_INTERPOLATION_CUBIC) width *= 3;
@@ -57,7 +57,27 @@ static bool fits(const sbf_clip *clip, uint32_t index) {
   return true;
 }
 
-static void write_track(sbfi_glb *g, const sbf_track *t, channels *c) {
+enum { REMEMBERED_TIMES = 8 };
+
+/* Times of keys that an accessor holds already. */
+typedef struct written_times {
+  const float *at;
+  uint32_t count, accessor;
+} written_times;
+
+/* Tracks of a clip often have their keys at the same times. */
+static uint32_t write_times(sbfi_glb *g, sbf_f32_list times, written_times *written, uint32_t *count) {
+  uint32_t remembered = *count < REMEMBERED_TIMES ? *count : REMEMBERED_TIMES;
+  for (uint32_t i = 0; i < remembered; i++)
+    if (written[i].count == times.count &&
+        memcmp(written[i].at, times.at, times.count * sizeof *times.at) == 0)
+      return written[i].accessor;
+  uint32_t accessor = sbfi_glb_accessor(g, times.at, times.count, SBFI_GLB_FLOAT, SBFI_GLB_NO_TARGET);
+  written[(*count)++ % REMEMBERED_TIMES] = (written_times){times.at, times.count, accessor};
+  return accessor;
+}
+
+static void write_track(sbfi_glb *g, const sbf_track *t, channels *c, uint32_t times) {
   static const char *const paths[] = {"translation", "rotation", "scale"};
   static const char *const directions[] = {"LINEAR", "STEP", "CUBICSPLINE"};
   bool is_rotation = t->property == SBF_TRACK_PROPERTY_ROTATION,
@@ -73,7 +93,6 @@ static void write_track(sbfi_glb *g, const sbf_track *t, channels *c) {
     bool is_tangent = cubic && i % 3 != 1;
     for (int k = 0; k < 4 && !is_tangent && length > 0; k++) q[k] = (float)((double)q[k] / length);
   }
-  uint32_t times = sbfi_glb_accessor(g, t->times.at, t->times.count, SBFI_GLB_FLOAT, SBFI_GLB_NO_TARGET);
   uint32_t numbers =
       sbfi_glb_accessor(g, values, count, is_rotation ? SBFI_GLB_VEC4 : SBFI_GLB_VEC3, SBFI_GLB_NO_TARGET);
   add_channel(c, (uint32_t)t->bone, paths[t->property], directions[t->interpolation], times, numbers);
@@ -81,13 +100,15 @@ static void write_track(sbfi_glb *g, const sbf_track *t, channels *c) {
 
 void sbfi_glb_write_clips(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
+  written_times written[REMEMBERED_TIMES];
+  uint32_t count = 0;
   for (uint32_t i = 0; i < asset->clips.count && !g->failed; i++) {
     const sbf_clip *clip = &asset->clips.at[i];
     channels c;
     begin(g, &c);
     for (uint32_t k = 0; k < clip->tracks.count; k++)
-      if (fits(clip, k))
-        write_track(g, &clip->tracks.at[k], &c);
+      if (sbfi_glb_writes_track(clip, k))
+        write_track(g, &clip->tracks.at[k], &c, write_times(g, clip->tracks.at[k].times, written, &count));
       else
         g->omitted_tracks++;
     end(g, &c, *clip->name ? clip->name : clip->id);

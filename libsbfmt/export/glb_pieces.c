@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "export/glb.h"
+#include "packed/packed_filter.h"
 
 void *sbfi_glb_allocate(sbfi_glb *g, size_t count, size_t size) {
   void *buffer = count ? sbfi_arena_allocate(&g->arena, count, size) : NULL;
@@ -58,19 +59,14 @@ uint32_t sbfi_glb_view(sbfi_glb *g, const void *bytes, size_t size) {
 }
 
 /* Little-endian on every machine, as the format requires. */
-static void store(uint8_t *to, const void *items, size_t words, bool shorts) {
-  for (size_t i = 0; i < words; i++) {
-    uint32_t bits;
-    if (shorts) {
-      uint16_t word;
-      memcpy(&word, (const uint8_t *)items + 2 * i, 2);
-      to[2 * i] = (uint8_t)word;
-      to[2 * i + 1] = (uint8_t)(word >> 8);
-      continue;
-    }
-    memcpy(&bits, (const uint8_t *)items + 4 * i, 4);
-    for (int k = 0; k < 4; k++) to[4 * i + (size_t)k] = (uint8_t)(bits >> (8 * k));
+static void store(uint8_t *to, const void *items, size_t scalars, size_t scalar_size) {
+  if (scalar_size == 1 || sbfi_host_is_little_endian()) {
+    memcpy(to, items, scalars * scalar_size);
+    return;
   }
+  for (size_t i = 0; i < scalars; i++)
+    for (size_t k = 0; k < scalar_size; k++)
+      to[i * scalar_size + k] = ((const uint8_t *)items)[(i + 1) * scalar_size - 1 - k];
 }
 
 static void write_bounds(sbfi_text *text, const float *items, uint32_t count, uint32_t width) {
@@ -93,18 +89,19 @@ uint32_t sbfi_glb_accessor(
     const char *name;
     uint32_t width, component;
   } kinds[] = {{"SCALAR", 1, 5126}, {"VEC2", 2, 5126}, {"VEC3", 3, 5126}, {"VEC4", 4, 5126},
-      {"MAT4", 16, 5126}, {"SCALAR", 1, 5125}, {"VEC4", 4, 5123}};
-  bool shorts = type == SBFI_GLB_USHORT4;
-  size_t words = (size_t)count * kinds[type].width, size = words * (shorts ? 2 : 4);
+      {"MAT4", 16, 5126}, {"SCALAR", 1, 5125}, {"SCALAR", 1, 5123}, {"VEC4", 4, 5123}, {"VEC4", 4, 5121}};
+  uint32_t component = kinds[type].component;
+  size_t scalar_size = component == 5121 ? 1 : component == 5123 ? 2 : 4;
+  size_t scalars = (size_t)count * kinds[type].width, size = scalars * scalar_size;
   uint32_t view = open_view(g, size, target), number;
   char *to = sbfi_text_reserve(&g->bytes, size);
   if (to) {
-    store((uint8_t *)to, items, words, shorts);
+    store((uint8_t *)to, items, scalars, scalar_size);
     g->bytes.length += size;
   }
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_ACCESSORS, &number);
   sbfi_export_print(text, "{\"bufferView\":%u,\"componentType\":%u,\"count\":%u,\"type\":\"%s\"", view,
-      kinds[type].component, count, kinds[type].name);
+      component, count, kinds[type].name);
   if (count && (type == SBFI_GLB_VEC3 || type == SBFI_GLB_FLOAT))
     write_bounds(text, items, count, kinds[type].width);
   sbfi_text_char(text, '}');

@@ -160,6 +160,16 @@ static void gather(const sbf_skin *skin, uint32_t from, uint32_t count, uint32_t
   }
 }
 
+/* Bytes where they suffice for all joints. */
+static uint32_t write_joints(const vertices *v, uint16_t *joints) {
+  size_t scalars = 4 * (size_t)v->count;
+  uint8_t *small = (uint8_t *)joints;
+  if (v->g->e->asset->bones.count > UINT8_MAX)
+    return sbfi_glb_accessor(v->g, joints, v->count, SBFI_GLB_USHORT4, SBFI_GLB_VERTICES);
+  for (size_t i = 0; i < scalars; i++) small[i] = (uint8_t)joints[i];
+  return sbfi_glb_accessor(v->g, small, v->count, SBFI_GLB_UBYTE4, SBFI_GLB_VERTICES);
+}
+
 /* Appends attributes in sets of four. */
 static void write_skin(const vertices *v, sbfi_text *attributes) {
   const sbf_skin *skin = v->mesh->skin;
@@ -189,8 +199,7 @@ static void write_skin(const vertices *v, sbfi_text *attributes) {
     if ((found.count + 3) / 4 > sets) sets = (found.count + 3) / 4;
   }
   for (uint32_t s = 0; s < sets; s++) {
-    uint32_t j = sbfi_glb_accessor(
-        v->g, joints + 4 * (size_t)s * v->count, v->count, SBFI_GLB_USHORT4, SBFI_GLB_VERTICES);
+    uint32_t j = write_joints(v, joints + 4 * (size_t)s * v->count);
     uint32_t w = sbfi_glb_accessor(
         v->g, weights + 4 * (size_t)s * v->count, v->count, SBFI_GLB_VEC4, SBFI_GLB_VERTICES);
     sbfi_export_print(attributes, ",\"JOINTS_%u\":%u,\"WEIGHTS_%u\":%u", s, j, s, w);
@@ -234,6 +243,16 @@ static void write_targets(const vertices *v, sbfi_text *text) {
   sbfi_text_char(text, ']');
 }
 
+/* 65535 may not be an index of two bytes. */
+static uint32_t write_indices(const vertices *v) {
+  if (v->count > UINT16_MAX)
+    return sbfi_glb_accessor(v->g, v->indices, v->index_count, SBFI_GLB_UINT, SBFI_GLB_INDICES);
+  uint16_t *small = sbfi_glb_allocate(v->g, v->index_count, sizeof *small);
+  if (!small) return 0;
+  for (uint32_t i = 0; i < v->index_count; i++) small[i] = (uint16_t)v->indices[i];
+  return sbfi_glb_accessor(v->g, small, v->index_count, SBFI_GLB_USHORT, SBFI_GLB_INDICES);
+}
+
 static void write_primitive(vertices *v, sbfi_text *text) {
   const sbf_render_mesh *m = v->mesh->shown;
   sbfi_export_print(text, "{\"attributes\":{\"POSITION\":%u", write_positions(v));
@@ -242,7 +261,7 @@ static void write_primitive(vertices *v, sbfi_text *text) {
   for (uint32_t s = 0; s < v->uv_count; s++)
     sbfi_export_print(text, ",\"TEXCOORD_%u\":%u", s, write_coordinates(v, &m->uv_sets.at[v->uv_sets[s]]));
   if (v->mesh->skin) write_skin(v, text);
-  uint32_t indices = sbfi_glb_accessor(v->g, v->indices, v->index_count, SBFI_GLB_UINT, SBFI_GLB_INDICES);
+  uint32_t indices = write_indices(v);
   sbfi_export_print(text, "},\"indices\":%u", indices);
   if (v->slot < m->material_slots.count && m->material_slots.at[v->slot].material >= 0)
     sbfi_export_print(text, ",\"material\":%d", (int)m->material_slots.at[v->slot].material);

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "export/glb.h"
+#include "gltf/soft_body_reader.h"
 
 static const char *const part_names[SBFI_GLB_PARTS] = {
     "bufferViews", "accessors", "images", "textures", "materials", "meshes", "skins", "nodes", "animations"};
@@ -23,22 +24,29 @@ static void write_scene(sbfi_glb *g, sbfi_text *json) {
   sbfi_text_string(json, "]}]");
 }
 
-static void write_json(sbfi_glb *g, sbfi_text *json) {
-  const sbf_info *info = &g->e->asset->info;
-  sbfi_text_string(json, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sbfmt\"");
-  if (*info->copyright) {
-    sbfi_text_string(json, ",\"copyright\":");
-    sbfi_glb_write_string(json, info->copyright);
-  }
-  sbfi_text_char(json, '}');
+static void write_extensions_used(const sbfi_glb *g, sbfi_text *json) {
   const char *const extensions[] = {g->emissive_strength ? "KHR_materials_emissive_strength" : NULL,
-      g->texture_transform ? "KHR_texture_transform" : NULL, g->texture_webp ? "EXT_texture_webp" : NULL};
+      g->texture_transform ? "KHR_texture_transform" : NULL, g->texture_webp ? "EXT_texture_webp" : NULL,
+      g->e->soft_bodies ? SBFI_GLTF_EXTENSION : NULL};
   uint32_t used = 0;
   for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
     if (extensions[i])
       sbfi_export_print(json, "%s\"%s\"", used++ ? "," : ",\"extensionsUsed\":[", extensions[i]);
   if (used) sbfi_text_char(json, ']');
   if (g->texture_webp) sbfi_text_string(json, ",\"extensionsRequired\":[\"EXT_texture_webp\"]");
+}
+
+/* The whole document; `soft_body` is the value of its extension, or empty. */
+static void write_json(sbfi_glb *g, sbfi_text *json, const sbfi_text *soft_body) {
+  const sbf_info *info = &g->e->asset->info;
+  sbfi_text_clear(json);
+  sbfi_text_string(json, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sbfmt\"");
+  if (*info->copyright) {
+    sbfi_text_string(json, ",\"copyright\":");
+    sbfi_glb_write_string(json, info->copyright);
+  }
+  sbfi_text_char(json, '}');
+  write_extensions_used(g, json);
   write_scene(g, json);
   if (g->bytes.length)
     sbfi_export_print(json, ",\"buffers\":[{\"byteLength\":%llu}]", (unsigned long long)g->bytes.length);
@@ -50,8 +58,27 @@ static void write_json(sbfi_glb *g, sbfi_text *json) {
     sbfi_text_append(json, part->text.at, part->text.length);
     sbfi_text_char(json, ']');
   }
+  if (soft_body->length) {
+    sbfi_text_string(json, ",\"extensions\":{\"" SBFI_GLTF_EXTENSION "\":");
+    sbfi_text_append(json, soft_body->at, soft_body->length);
+    sbfi_text_char(json, '}');
+  }
   sbfi_text_char(json, '}');
   sbfi_text_repeat(json, ' ', (4 - json->length % 4) % 4);
+}
+
+/* The extension refers to what the document has without it. */
+static void write_document(sbfi_glb *g, sbfi_text *json) {
+  sbfi_text soft_body;
+  sbfi_text_init(&soft_body, &g->e->allocator);
+  write_json(g, json, &soft_body);
+  if (g->e->soft_bodies && !g->failed && !json->failed) {
+    sbfi_glb_write_soft_body(g, json, &soft_body);
+    sbfi_text_repeat(&g->bytes, 0, (4 - g->bytes.length % 4) % 4);
+    write_json(g, json, &soft_body);
+  }
+  g->failed = g->failed || soft_body.failed;
+  sbfi_text_free(&soft_body);
 }
 
 static void put_words(uint8_t *to, const uint32_t *words, int count) {
@@ -95,7 +122,7 @@ static void report_unsupported(const sbfi_glb *g) {
       {g->omitted_images, "images that are neither PNG nor JPEG nor WebP, or not found"},
       {g->omitted_tracks, "clip tracks without increasing times"},
       {inherit, "bones that take no turn or scale of their parent"}};
-  sbfi_export_left_out(g->e, "glTF", things, sizeof things / sizeof *things);
+  if (!g->e->soft_bodies) sbfi_export_left_out(g->e, "glTF", things, sizeof things / sizeof *things);
   if (g->worst_m > 0.0005)
     sbfi_export_warn(g->e,
         "where joints turned against each other fold the skin flat the motion written is up to %.1f mm off",
@@ -113,7 +140,7 @@ static sbf_status write_all(sbfi_glb *g) {
   if (!g->failed) sbfi_glb_write_clips(g);
   if (!g->failed) sbfi_glb_write_motion(g);
   sbfi_text_repeat(&g->bytes, 0, (4 - g->bytes.length % 4) % 4);
-  if (!g->failed) write_json(g, &json);
+  if (!g->failed) write_document(g, &json);
   sbf_status status;
   if (g->failed || json.failed || g->bytes.failed)
     status = sbfi_export_no_memory(e);
@@ -125,7 +152,10 @@ static sbf_status write_all(sbfi_glb *g) {
 
 sbf_status sbfi_export_glb(sbfi_export *e) {
   const sbf_asset *asset = e->asset;
-  if (!asset->render_meshes.count && !asset->bones.count)
+  if (e->soft_bodies && e->render_level)
+    return sbfi_diagnose(e->error, SBF_CODE_BAD_CALL,
+        "%s: soft bodies belong to the full meshes: leave the render level out", e->path);
+  if (!asset->render_meshes.count && !asset->bones.count && !e->soft_bodies)
     return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
         "the file holds neither a render mesh nor a skeleton: there is nothing to write to %s", e->path);
   if (asset->bones.count >= UINT16_MAX)

@@ -1,4 +1,5 @@
-/* Loads and saves both forms of the format: the first bytes select the reader, the file name the writer. */
+/* Loads all forms of the format and saves text and packed ones: the first bytes select the reader, the file
+ * name the writer. */
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -6,9 +7,10 @@
 #include "base/text.h"
 #include "model/asset_box.h"
 #include "model/options.h"
+#include "sbfmt/gltf.h"
 #include "xml/xml_reader.h"
 
-typedef enum form { FORM_UNKNOWN, FORM_EMPTY, FORM_XML, FORM_PACKED } form;
+typedef enum form { FORM_UNKNOWN, FORM_EMPTY, FORM_XML, FORM_PACKED, FORM_GLTF } form;
 
 static bool begins_packed(const uint8_t *bytes, size_t size) {
   static const uint8_t magic[] = {0x89, 'S', 'B', 'F'};
@@ -21,6 +23,7 @@ static form form_of(const uint8_t *bytes, size_t size) {
   sbfi_span rest = {(const char *)bytes, size};
   if (size == 0) return FORM_EMPTY;
   if (begins_packed(bytes, size)) return FORM_PACKED;
+  if (sbf_gltf_is_begun(bytes, size)) return FORM_GLTF;
   if (sbfi_span_begins(rest, "\xef\xbb\xbf")) rest = (sbfi_span){rest.at + 3, rest.length - 3};
   rest = sbfi_span_trim(rest);
   if (rest.length && rest.at[0] == '<') return FORM_XML;
@@ -31,9 +34,8 @@ static form form_of(const uint8_t *bytes, size_t size) {
 
 static sbf_status refuse(form found, const char *path, sbf_diagnostic *error) {
   sbf_status status = sbfi_diagnose(error, SBF_CODE_IO_UNKNOWN_FORMAT,
-      found == FORM_EMPTY
-          ? "the file is empty"
-          : "the file is neither form of sbf: files of other formats are for `sbfmt convert`");
+      found == FORM_EMPTY ? "the file is empty"
+                          : "the file is no form of sbf: files of other formats are for `sbfmt convert`");
   if (error) sbfi_copy_text(error->file, sizeof error->file, path);
   return status;
 }
@@ -66,6 +68,7 @@ static sbf_status load_content(const char *path, sbfi_file_content *content, for
   sbf_load_options named = *options;
   named.name = path;
   if (found == FORM_PACKED) return load_packed_content(content, &named, asset, error);
+  if (found == FORM_GLTF) return sbf_gltf_load_memory(content->at, content->size, &named, asset, error);
   return sbf_xml_load_memory(content->at, content->size, &named, asset, error);
 }
 
@@ -88,6 +91,8 @@ sbf_status sbf_load_file_findings(const char *path, const sbf_load_options *opti
     sbfi_xml_findings all = {findings, capacity, 0};
     status = sbfi_xml_read_file(path, options, &all, asset);
     *count = all.count;
+  } else if (is_mapped && status == SBF_OK && found == FORM_GLTF) {
+    status = sbf_gltf_load_file(path, options, asset, findings);
   } else if (is_mapped && status == SBF_OK) {
     status = sbf_packed_load_file(path, options, asset, findings);
   }

@@ -10,6 +10,7 @@ sys.dont_write_bytecode = True
 import emit_c
 import emit_codes
 import emit_docs
+import emit_gltf
 import emit_materials
 import emit_python
 import schema as schema_reader
@@ -35,6 +36,7 @@ def products():
         "spec/reference.md": emit_docs.reference(schema),
         "spec/sbf.xsd": emit_docs.xsd(schema),
         "spec/codes.md": emit_codes.page(codes),
+        "spec/gltf/SBF_soft_body/schema/SBF_soft_body.schema.json": emit_gltf.extension(schema),
     }
 
 

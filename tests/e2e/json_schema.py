@@ -36,6 +36,8 @@ def faults(value, schema, root=None, path="$"):
             found += [] if re.search(rule, value) else [f"{path} does not match {rule}"]
         elif word == "minimum":
             found += [] if value >= rule else [f"{path} is below {rule}"]
+        elif word in ("required", "properties", "additionalProperties") and isinstance(value, list) or word == "items" and isinstance(value, dict):
+            continue  # they speak of values of another type
         elif word == "required":
             found += [f"{path} lacks {key}" for key in rule if value is not None and key not in value]
         elif word == "properties":

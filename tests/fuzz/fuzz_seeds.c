@@ -9,6 +9,7 @@
 #include "model/schema.h"
 #include "packed/packed_codec.h"
 #include "sbfmt/build.h"
+#include "sbfmt/export.h"
 #include "shapes.h"
 #include "small_asset.h"
 #include "stream_builder.h"
@@ -43,6 +44,14 @@ static void put_forms(const char *folder, const char *name, const sbf_asset *ass
   FUZZ_MUST(sbf_xml_save_memory(asset, NULL, NULL, &bytes, NULL) == SBF_OK);
   put(folder, of_xml, full, &bytes);
   sbf_buffer_free(&bytes);
+}
+
+static void put_glb(const char *folder, const char *name, const sbf_asset *asset) {
+  char path[1024];
+  snprintf(path, sizeof path, "%s/gltf", folder);
+  mkdir(path, 0777);
+  snprintf(path, sizeof path, "%s/gltf/%s.glb", folder, name);
+  FUZZ_MUST(sbf_export(asset, path, &(sbf_export_options){.soft_bodies = true}, NULL) == SBF_OK);
 }
 
 /* Of so many chunks that there is an outline: long, so it is for those alone that read one. */
@@ -155,6 +164,8 @@ int main(int argc, char **argv) {
   put_forms(argv[1], "small", small);
   put_forms(argv[1], "full", full);
   put_forms(argv[1], "bodies", bodies);
+  put_glb(argv[1], "small", small);
+  put_glb(argv[1], "full", full);
   put_built(argv[1], bodies);
   sbf_asset_free(small);
   sbf_asset_free(full);

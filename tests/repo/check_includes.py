@@ -10,7 +10,7 @@ from repo_files import ROOT, conclude, project_files, read_text
 
 BASE = ["libsbfmt/base"]
 MODEL = BASE + ["libsbfmt/model", "libsbfmt/generated"]  # the schema's tables are the model's own
-CORE = MODEL + ["libsbfmt/packed"]
+CORE = MODEL + ["libsbfmt/packed", "libsbfmt/gltf"]
 MECHANICS = MODEL + ["libsbfmt/mechanics"]
 MOTION = MECHANICS + ["libsbfmt/motion"]
 FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/motion", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
@@ -51,6 +51,7 @@ MAY_USE = {
     "libsbfmt/model": MODEL,
     "libsbfmt/generated": MODEL,
     "libsbfmt/packed": MODEL + ["libsbfmt/packed"],
+    "libsbfmt/gltf": MODEL + ["libsbfmt/packed", "libsbfmt/gltf"],
     "libsbfmt/mechanics": MECHANICS,
     "libsbfmt/motion": MOTION,
     "libsbfmt/xml": MODEL + ["libsbfmt/xml"],
@@ -73,7 +74,7 @@ MAY_USE = {
 # Public header -> its box, and which boxes may use it.
 HEADER_BOX = {
     "sbfmt/base.h": "core", "sbfmt/codes.h": "core", "sbfmt/model.h": "core", "sbfmt/asset.h": "core",
-    "sbfmt/packed.h": "core", "sbfmt/io.h": "format", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
+    "sbfmt/packed.h": "core", "sbfmt/gltf.h": "core", "sbfmt/io.h": "format", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
     "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange",
     "sbrun/sbrun.h": "runtime", "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/collision.h": "runtime",
     "sbrun/detail.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
@@ -90,6 +91,7 @@ BOX_USES = {
 }
 FOLDER_BOX = {
     "libsbfmt/base": "core", "libsbfmt/model": "core", "libsbfmt/generated": "core", "libsbfmt/packed": "core",
+    "libsbfmt/gltf": "core",
     "libsbfmt/mechanics": "mechanics", "libsbfmt/motion": "mechanics", "libsbfmt/xml": "format", "libsbfmt/validate": "format",
     "libsbfmt/build": "format", "libsbfmt/interchange": "interchange", "libsbfmt/import": "interchange", "libsbfmt/export": "interchange",
     "runtime": "runtime",

@@ -252,6 +252,10 @@ typedef enum sbf_code {
   SBF_CODE_PACKED_RECORD = 807, /* A record is inconsistent. */
   SBF_CODE_PACKED_CODEC = 808, /* A chunk uses a codec or a filter that this library does not know. */
   SBF_CODE_PACKED_UNKNOWN_PART = 809, /* A critical part has an unknown kind: use a newer reader. */
+  SBF_CODE_GLTF_SYNTAX = 821, /* The file is no valid binary glTF 2.0 in one piece: copy or export it again. */
+  SBF_CODE_GLTF_NO_SOFT_BODY = 822, /* The glTF file lacks the extension SBF_soft_body: make a bundle of it with `sbfmt convert`. */
+  SBF_CODE_GLTF_EXTENSION = 823, /* The content of the extension SBF_soft_body is inconsistent: pack the character again. */
+  SBF_CODE_GLTF_CHANGED = 824, /* Another program changed the meshes or clips that SBF_soft_body refers to: use the file as it was before. */
   SBF_CODE_IMPORT_SYNTAX = 901, /* A line of a text file violates its form: correct it or export it again. */
   SBF_CODE_IMPORT_INDEX = 902, /* A polygon refers to a vertex, normal or texture coordinate that the file does not have. */
   SBF_CODE_IMPORT_NOT_FINITE = 903, /* A number of the imported file is infinite or not a number: export it again. */

@@ -35,6 +35,14 @@ typedef struct sbf_export_options {
   /* For .glb, an animation "motion": the joints move, and a morph target per frame holds the skin's remaining
    * displacement. NULL: none. */
   const sbf_export_motion *motion;
+  /* For .glb: also write everything that glTF cannot hold, as the extension SBF_soft_body
+   * (spec/gltf/SBF_soft_body), so that sbf_gltf_load_file gives an equal asset. Needs render_level 0. */
+  bool soft_bodies;
+  bool store;      /* with soft_bodies: leave the extension's lists uncompressed */
+  int compression; /* with soft_bodies: zlib's level 1..9; 0: 6 */
+  /* For .glb: images of the asset's textures, in their order, for those that are not embedded; searched
+   * before `folder`. Must live until the call returns. NULL: none. */
+  const sbf_texture_list *images;
 } sbf_export_options;
 
 /* Writes the asset in the format given by the extension of `path`: .glb (binary glTF 2.0: render meshes with

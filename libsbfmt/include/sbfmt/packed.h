@@ -79,6 +79,9 @@ typedef struct sbf_load_options {
    * parts that this library does not know. These parts are not loaded, so a save loses them. May be NULL. */
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user; /* passed to `report` */
+  /* glTF: textures that are files beside the asset also get the bytes of the image that the .glb has. Without
+   * it, the asset equals the saved one. */
+  bool with_images;
 } sbf_load_options;
 
 /* Settings of a save. */

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sbfmt/gltf.h"
 #include "web.h"
 
 /* WebAssembly of one page or worker has one thread. */
@@ -34,9 +35,11 @@ void WEB_CALL(web_free)(void *memory) {
 /* `bytes` must stay until the asset is freed. NULL: see web_failure_message. */
 sbf_asset *WEB_CALL(web_asset_load)(const void *bytes, size_t size) {
   sbf_asset *asset = NULL;
-  const sbf_load_options options = {.check_crc = true};
+  const sbf_load_options options = {.check_crc = true, .with_images = true};
   memset(&failure, 0, sizeof failure);
-  return sbf_packed_load_memory(bytes, size, &options, &asset, &failure) == SBF_OK ? asset : NULL;
+  sbf_status (*load)(const void *, size_t, const sbf_load_options *, sbf_asset **, sbf_diagnostic *) =
+      sbf_gltf_is_begun(bytes, size) ? sbf_gltf_load_memory : sbf_packed_load_memory;
+  return load(bytes, size, &options, &asset, &failure) == SBF_OK ? asset : NULL;
 }
 void WEB_CALL(web_asset_free)(sbf_asset *asset) {
   sbf_asset_free(asset);
