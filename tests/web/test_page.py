@@ -32,7 +32,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         bundles = web_files.bundles(folder)
         lizard = bundles["lizard"]
-        page = os.path.join(folder, "lizard.html")
+        page, other = os.path.join(folder, "lizard.html"), os.path.join(folder, "figure.glb")
+        web_files.run(web_files.SBFMT, "pack", bundles["figure"], "-o", other)
         web_files.run(web_files.SBFMT, "export", lizard, "-o", page)
         check_missing(lizard, folder)
         with open(page, encoding="utf-8") as stream:
@@ -41,7 +42,7 @@ def main():
         if outside or "{{" in text:
             sys.exit(f"the page is not whole: {outside[:5]}")
         told = web_files.run("node", script, modules, page, pictures,
-                             json.dumps({"frames": FRAMES, "drive": DRIVE, "ground": GROUND, "other": bundles["figure"],
+                             json.dumps({"frames": FRAMES, "drive": DRIVE, "ground": GROUND, "other": other,
                                          "text": os.path.join(folder, "lizard.sbf"), "dropped": lizard}))
         found = json.loads(told.splitlines()[-1])
         native = web_files.native(lizard, "--seconds", FRAMES / 60, "--drive", "0.3,0.2", "--ground", "noise:0.1,5")

@@ -35,7 +35,7 @@ export type Ground =
   | { kind: 'heights'; heights: ArrayLike<number>; columns: number; rows: number; cell: number; x?: number; z?: number };
 
 export interface Sbfmt {
-  /** Loads and checks an .sbfz file, compressed or stored; throws an SbfmtError that says what is wrong and where. */
+  /** Loads and checks an .sbfz file, compressed or stored, or a .glb with soft bodies; throws an SbfmtError that says what is wrong and where. */
   asset(bytes: ArrayBuffer | ArrayBufferView): Asset;
   world(options?: WorldOptions): World;
   /** Heights and unit normals of a ground at places x, z, x, z, ...: copies. */

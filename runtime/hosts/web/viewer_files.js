@@ -1,4 +1,4 @@
-/* Other characters for the page: .sbfz files that are chosen, or dropped anywhere. */
+/* Other characters for the page: .sbfz and .glb files that are chosen, or dropped anywhere. */
 
 /** Lets the viewer show what the visitor brings; `tell` says what is wrong with it, '' that nothing is. */
 export function listenForFiles(viewer, element, tell) {
@@ -32,6 +32,6 @@ export function listenForFiles(viewer, element, tell) {
     over(false);
     const [file] = event.dataTransfer.files;
     if (file) show(file);
-    else tell('That is no file: drop an .sbfz.');
+    else tell('That is no file: drop an .sbfz or a .glb.');
   });
 }

@@ -19,7 +19,7 @@ export class Asset extends Lent {
   constructor(sbfmt, bytes) {
     super('asset');
     const c = sbfmt.calls, from = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
-    if (!ArrayBuffer.isView(from)) throw new TypeError('an asset is made of the bytes of an .sbfz file: an ArrayBuffer or a Uint8Array');
+    if (!ArrayBuffer.isView(from)) throw new TypeError('an asset is made of the bytes of an .sbfz or .glb file: an ArrayBuffer or a Uint8Array');
     this.sbfmt = sbfmt;
     // Lists that are stored uncompressed are used where they lie, aligned as in the file.
     this.memory = sbfmt.room(from.byteLength + 64);
