@@ -96,7 +96,8 @@ typedef struct sbri_tick_solids {
   sbri_tetrahedron_block *flowing;      /* the same where they yield or tear, else NULL */
   uint32_t *torn;                       /* (tetrahedra) sbri_torn_state, likewise */
   float *edges;                         /* (tetrahedra's lanes x 9) scratch */
-  float *rotations; /* (region blocks x 4 x 8) of the regions: of the last substep on entry and return */
+  uint8_t *compressed; /* (blocks) scratch: 1: the last check in this tick found a compressed element */
+  float *rotations;    /* (region blocks x 4 x 8) of the regions: of the last substep on entry and return */
   float *max_flow_stretch; /* see sbri_island_state */
   float *stiffening;       /* see sbri_island_state: of the last tick on entry, of this one on return */
   float *min_ratio;        /* on return the minimum J = det F at the last check; 1 without tetrahedra */

@@ -24,7 +24,7 @@ typedef struct sbri_spring_layout {
 
 typedef struct sbri_solid_layout {
   size_t blocks, torn, rotations;
-  size_t edges, visits, queue, tears;
+  size_t edges, compressed, visits, queue, tears;
 } sbri_solid_layout;
 
 /* Of models whose points may split. */

@@ -94,6 +94,7 @@ static sbri_tick_solids solids_of(
       .flowing = flowing,
       .torn = flowing ? sbri_torn(c) + tetrahedra->first_state : NULL,
       .edges = sbri_solid_edges(c) + 9 * SBRI_BLOCK * (size_t)tetrahedra->first_block,
+      .compressed = sbri_compressed_blocks(c) + tetrahedra->first_block,
       .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->regions.first_rotation,
       .max_flow_stretch = &state->max_flow_stretch,
       .stiffening = &state->stiffening,

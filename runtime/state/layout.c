@@ -136,6 +136,7 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->points.moves = position(&end, slots, sizeof(sbri_point));
   l->springs.edges = position(&end, (size_t)model->counts.link_blocks * 3 * SBRI_BLOCK, sizeof(float));
   l->solids.edges = position(&end, (size_t)model->counts.tetrahedron_blocks * 9 * SBRI_BLOCK, sizeof(float));
+  l->solids.compressed = position(&end, model->counts.tetrahedron_blocks, 1);
   l->solids.tears = position(&end, model->island_count, sizeof(sbri_tears));
   l->points.element_forces = position(&end, slots, sizeof(sbri_point));
   l->contacts.planes = position(&end, 4 * slots, sizeof(float));

@@ -189,6 +189,7 @@ SBRI_SCRATCH_PART(older_velocities, float, points.older_velocities)    /* (slot_
 SBRI_SCRATCH_PART(moves, sbri_point, points.moves)                     /* (slot_count) */
 SBRI_SCRATCH_PART(edges, float, springs.edges)                         /* (counts.link_blocks x 24) */
 SBRI_SCRATCH_PART(solid_edges, float, solids.edges)                    /* (counts.tetrahedron_blocks x 72) */
+SBRI_SCRATCH_PART(compressed_blocks, uint8_t, solids.compressed)       /* (counts.tetrahedron_blocks) */
 SBRI_SCRATCH_PART(tears_of, sbri_tears, solids.tears)                  /* (island_count) */
 SBRI_SCRATCH_PART(element_forces, sbri_point, points.element_forces)   /* (slot_count) */
 SBRI_SCRATCH_PART(loads_now, sbri_loads_now_list, loads_now)           /* of this tick */

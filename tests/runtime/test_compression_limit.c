@@ -91,11 +91,43 @@ START_TEST(the_wall_keeps_momentum)
 }
 END_TEST
 
+/* Without a mark, the sweep does not read a block. */
+START_TEST(only_marked_blocks_are_swept)
+{
+  scene s = scene_begin();
+  lattice_box box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 1, 1}, 1, 1, 1, 1000, 1e5f, 0.4f);
+  scene_lattice(&s, 0, &box);
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  sbri_point *x = sbri_positions(&s.world->characters[0]);
+  for (uint32_t i = 0; i < island->free_count; i++) x[i].y *= 0.02f;
+  uint8_t marks[8] = {0};
+  float ratio = 0.02f, y = x[0].y;
+  bool stored = true;
+  ck_assert_uint_le(island->tetrahedra.block_count, 8);
+  sbri_island_tick t = {.model = s.model,
+      .island = island,
+      .solids = {.blocks = island->tetrahedra.blocks, .compressed = marks, .min_ratio = &ratio},
+      .positions = x,
+      .velocities = sbri_velocities(&s.world->characters[0])};
+  ck_assert(!sbri_limit_compression_sweep(&t, &stored));
+  ck_assert_float_eq(x[0].y, y);
+  sbri_mark_all_compressed(&t);
+  ck_assert(sbri_limit_compression_sweep(&t, &stored));
+  sbri_update_compression(&t);
+  ck_assert_float_gt(ratio, 0.02f);
+  ck_assert_uint_eq(marks[0], 1);
+  lattice_box_free(&box);
+  scene_free(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("crush");
   TCase *c = tcase_create("crush");
   tcase_add_loop_test(c, a_blow_turns_nothing_inside_out, 0, 5);
   tcase_add_loop_test(c, the_wall_keeps_momentum, 0, 2);
+  tcase_add_test(c, only_marked_blocks_are_swept);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

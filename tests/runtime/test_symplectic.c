@@ -1,7 +1,10 @@
 #include <math.h>
 
 #include "harness.h"
+#include "random.h"
+#include "scene_state.h"
 #include "scenes.h"
+#include "soft/solvers/motion.h"
 
 static const double pi = 3.14159265358979323846;
 static const double tick = 1.0 / 60;
@@ -255,6 +258,30 @@ START_TEST(a_damped_body_in_free_flight_stays_at_rest)
 }
 END_TEST
 
+/* The bound that saves the exact speed is never below it: points that fly apart, all alike, or mostly alike.
+ */
+START_TEST(the_bound_of_an_impact_s_speed_holds)
+{
+  scene s = scene_begin();
+  lattice_box box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 1, 1}, 2, 2, 2, 1000, 1e5f, 0.4f);
+  uint32_t state = 7;
+  scene_lattice(&s, 0, &box);
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  sbri_island_tick t = {
+      .model = s.model, .island = island, .velocities = sbri_velocities(&s.world->characters[0])};
+  for (int i = 0; i < 300; i++) {
+    float fall = (float)(i % 3) * 5, apart = i % 5 ? 1 : 0;
+    for (uint32_t slot = 0; slot < island->free_count; slot++)
+      for (int k = 0; k < 3; k++)
+        scene_velocity(&s, slot)[k * SBRI_BLOCK] = fall + apart * random_between(&state, -1, 1);
+    ck_assert_float_ge(sbri_impact_speed_bound(&t), sbri_impact_speed(&t));
+  }
+  lattice_box_free(&box);
+  scene_free(&s);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("symplectic");
   TCase *c = tcase_create("symplectic");
@@ -269,6 +296,7 @@ static Suite *suite(void) {
   tcase_add_test(c, damping_takes_what_its_ratio_says);
   tcase_add_test(c, springs_damp_their_own_stretching);
   tcase_add_test(c, a_damped_body_in_free_flight_stays_at_rest);
+  tcase_add_test(c, the_bound_of_an_impact_s_speed_holds);
   suite_add_tcase(s, c);
   return s;
 }

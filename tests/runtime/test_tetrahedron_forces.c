@@ -16,6 +16,7 @@ static lattice_box box;
 static scene s;
 static sbri_island_tick tick;
 static sbri_point *positions, *velocities, *forces;
+static uint8_t *compressed;
 static const float beta = 2e-3f;
 
 static void begin(float damping_s) {
@@ -28,11 +29,12 @@ static void begin(float damping_s) {
   positions = calloc(island->slot_count, sizeof *positions);
   velocities = calloc(island->slot_count, sizeof *velocities);
   forces = calloc(island->slot_count, sizeof *forces);
-  ck_assert(positions && velocities && forces);
+  compressed = calloc(island->tetrahedra.block_count, 1);
+  ck_assert(positions && velocities && forces && compressed);
   memcpy(positions, island->rest, island->slot_count * sizeof *positions);
   tick = (sbri_island_tick){.model = s.model,
       .island = island,
-      .solids = {.blocks = island->tetrahedra.blocks},
+      .solids = {.blocks = island->tetrahedra.blocks, .compressed = compressed},
       .positions = positions,
       .scratch = {.velocity_points = velocities, .element_forces = forces}};
 }
@@ -40,6 +42,7 @@ static void end(void) {
   free(positions);
   free(velocities);
   free(forces);
+  free(compressed);
   scene_free(&s);
   lattice_box_free(&box);
 }
@@ -184,6 +187,36 @@ START_TEST(what_is_watched)
   sbri_watch_begin(&watch);
   sbri_compute_tetrahedron_forces(&tick, &watch);
   ck_assert_float_eq_tol(sbri_watch_min_ratio(&watch), -0.5f * 1.5f * 1.5f * 1.5f, 1e-3f);
+  end();
+}
+END_TEST
+
+/* A point is pushed into its body: only blocks that hold one of its elements are marked, and all of those
+ * with an element below half its volume. */
+START_TEST(blocks_of_compressed_elements_are_marked)
+{
+  begin(0);
+  sbri_tetrahedron_watch watch;
+  const sbri_island *island = tick.island;
+  uint32_t slot = s.model->bodies[0].slots.from_point[0], marked = 0;
+  positions[slot].x += 0.14f, positions[slot].y += 0.14f, positions[slot].z += 0.14f;
+  sbri_watch_begin(&watch);
+  sbri_compute_tetrahedron_forces(&tick, &watch);
+  for (uint32_t b = 0; b < island->tetrahedra.dense_count; b++) {
+    const sbri_tetrahedron_block *block = &island->tetrahedra.blocks[b];
+    bool any = false;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+      sbfi_d3 x[4];
+      for (int k = 0; k < 4; k++) x[k] = position(positions, block->corners[k][lane]);
+      double six = sbfi_d3_dot(
+          sbfi_d3_sub(x[1], x[0]), sbfi_d3_cross(sbfi_d3_sub(x[2], x[0]), sbfi_d3_sub(x[3], x[0])));
+      any = any || (block->shear[lane] > 0 && six * (double)block->inverse_volume[lane] < 0.5);
+    }
+    ck_assert_uint_eq(compressed[b], any);
+    marked += any;
+  }
+  ck_assert_uint_gt(marked, 0);
+  ck_assert_uint_lt(marked, island->tetrahedra.dense_count);
   end();
 }
 END_TEST
@@ -392,6 +425,7 @@ int main(void) {
   tcase_add_test(c, damping_is_the_second_derivative_times_the_velocity);
   tcase_add_test(c, damping_leaves_turning_alone);
   tcase_add_test(c, what_is_watched);
+  tcase_add_test(c, blocks_of_compressed_elements_are_marked);
   tcase_add_test(c, a_beam_comes_to_rest_where_the_statics_say);
   tcase_add_test(c, a_beam_swings_at_its_lowest_frequency);
   tcase_add_test(c, energy_and_momentum_are_kept);

@@ -200,6 +200,7 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
              *moved = t->scratch.moves;                          /* scratch that is unused here */
   uint32_t corners = island->tetrahedra.block_count > 0 ? 4 : 2; /* number of points per element */
   sbri_store_pinned_begin(t);
+  sbri_mark_all_compressed(t);
   for (uint32_t s = 0; s < substeps; s++) {
     if (t->scratch.external_forces) sbri_compute_external_forces(t, h);
     sbri_move_pinned(t, s + 1 == substeps ? 1 : (float)(s + 1) / (float)substeps);

@@ -9,7 +9,7 @@
  * the ground first, with the mass of a body behind them, would be inverted. Bias against the energy: none
  * above the bound; at the bound, an inelastic wall.
  *
- * The limit is checked only if the last evaluation found an element below half its volume.
+ * The limit is checked only in blocks in which the last evaluation found an element below half its volume.
  *
  * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_COMPRESSION_H
@@ -21,7 +21,6 @@
 #include "soft/solvers/tetrahedron_forces.h"
 
 #define SBRI_MIN_VOLUME_RATIO 0.1f
-#define SBRI_COMPRESSION_NEAR 0.5f
 /* Maximum increase of J per substep, and maximum displacement of a corner as a fraction of its element's
  * size. Keeps heaps from bursting. */
 #define SBRI_COMPRESSION_STEP 0.1f
@@ -92,6 +91,11 @@ static inline bool sbri_is_compressed(const sbri_island_tick *t) {
   return t->island->tetrahedra.dense_count > 0 && *t->solids.min_ratio < SBRI_COMPRESSION_NEAR;
 }
 
+/* Lets the limit be checked in all blocks, where nothing tells which are compressed. */
+static inline void sbri_mark_all_compressed(const sbri_island_tick *t) {
+  if (sbri_is_compressed(t)) memset(t->solids.compressed, 1, t->island->tetrahedra.dense_count);
+}
+
 /* Updates J for integrators that do not compute it. */
 static inline void sbri_update_compression(const sbri_island_tick *t) {
   sbri_tetrahedron_watch watch;
@@ -102,15 +106,17 @@ static inline void sbri_update_compression(const sbri_island_tick *t) {
       sbri_wide_store(min, sbri_wide_min(sbri_ratio_of(t, &t->solids.blocks[b], lane), sbri_wide_load(min)));
     }
   *t->solids.min_ratio = sbri_watch_min_ratio(&watch);
+  sbri_mark_all_compressed(t);
 }
 
-/* One iteration; returns whether any element was below the limit. Reads all lanes of a block before it moves
- * any, because some blocks share points between lanes. Stores soft contacts before the first change unless
- * `*contacts_stored`; most substeps need none. */
+/* One iteration over the blocks that are marked as compressed; returns whether any element was below the
+ * limit. Reads all lanes of a block before it moves any, because some blocks share points between lanes.
+ * Stores soft contacts before the first change unless `*contacts_stored`; most substeps need none. */
 static inline bool sbri_limit_compression_sweep(const sbri_island_tick *t, bool *contacts_stored) {
+  const uint8_t *marks_of = t->solids.compressed, *end = marks_of + t->island->tetrahedra.dense_count;
   bool any_compressed = false;
-  for (uint32_t b = 0; b < t->island->tetrahedra.dense_count; b++) {
-    const sbri_tetrahedron_block *block = &t->solids.blocks[b];
+  for (const uint8_t *at = marks_of; (at = memchr(at, 1, (size_t)(end - at))) != NULL; at++) {
+    const sbri_tetrahedron_block *block = &t->solids.blocks[at - marks_of];
     float marks[SBRI_BLOCK];
     bool any = false;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {

@@ -23,10 +23,12 @@ static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {
   float h = t->tick_s / (float)substeps;
   float stretches[SBRI_BLOCK] = {0};
   sbri_store_pinned_begin(t);
+  sbri_mark_all_compressed(t);
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
     if (sbri_has_damping(island)) sbri_copy_velocities_to_points(t, 1 / t->tick_s);
     sbri_accelerate(t, h, last ? stretches : NULL);
+    if (last) sbri_mark_all_compressed(t);
     if (t->reactions) sbri_react(t, h);
     sbri_drift(t, h);
     sbri_add_accelerations(t, h);

@@ -133,6 +133,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
          SBRI_HEUN_UNITS / shortest > island->stepping.max_substeps)
     shortest *= 2; /* stability bounds the step */
   sbri_store_pinned_begin(t);
+  sbri_mark_all_compressed(t);
   sbri_heun_evaluate(t, unit * (float)longest, NULL);
   for (uint32_t done = 0, step = longest; done < SBRI_HEUN_UNITS;) {
     if (step > shortest && !island->stepping.substeps &&

@@ -285,6 +285,20 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
   return max;
 }
 
+/* Upper bound of sbri_impact_speed by one pass: its mean and what is relative to it are each at most once and
+ * twice the greatest speed. The last hundredth is for rounding. */
+static inline float sbri_impact_speed_bound(const sbri_island_tick *t) {
+  sbri_wide square = sbri_wide_all(0);
+  float squares[SBRI_LANES], max = 0;
+  for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES) {
+    sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+    square = sbri_wide_max(sbri_wide3_dot(v, v), square);
+  }
+  sbri_wide_store(squares, square);
+  for (int lane = 0; lane < SBRI_LANES; lane++) max = squares[lane] > max ? squares[lane] : max;
+  return 3.03f * sqrtf(max);
+}
+
 /* Number of substeps in the coming `time_s` seconds in which no point crosses an element when a solid body
  * strikes the ground; 1 if nothing is near the ground. */
 static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s) {
@@ -292,6 +306,16 @@ static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s
   if (island->tetrahedra.block_count == 0 || !(island->stability.cell_m > 0) || !sbri_soft_contacts_any(t))
     return 1;
   return time_s * sbri_impact_speed(t) / (sbri_impact_fraction * island->stability.cell_m);
+}
+
+/* `substeps`, or as many as such an impact needs if that is more; at most `max`. */
+static inline uint32_t sbri_substeps_with_impact(
+    const sbri_island_tick *t, float time_s, uint32_t substeps, uint32_t max) {
+  float cell = sbri_impact_fraction * t->island->stability.cell_m;
+  if (!(cell > 0) || !sbri_soft_contacts_any(t)) return substeps;
+  if (time_s * sbri_impact_speed_bound(t) <= cell * (float)substeps) return substeps;
+  float crossing = ceilf(fminf(sbri_impact_substeps(t, time_s), (float)max));
+  return (float)substeps < crossing ? (uint32_t)crossing : substeps;
 }
 
 /* Whether rigid bodies or the asset set the substeps. Those already count impacts, and more substeps of the
@@ -304,10 +328,8 @@ static inline bool sbri_has_fixed_substeps(const sbri_island_tick *t) {
  * gases. Bounded, because a flat gas would need a million; recovery repairs the result. */
 static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
   uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->springs.stretch);
-  if (!sbri_has_fixed_substeps(t)) {
-    float crossing = ceilf(fminf(sbri_impact_substeps(t, time_s), SBRI_MAX_STRAINED_SUBSTEPS));
-    needed = (float)needed < crossing ? (uint32_t)crossing : needed;
-  }
+  if (!sbri_has_fixed_substeps(t))
+    needed = sbri_substeps_with_impact(t, time_s, needed, SBRI_MAX_STRAINED_SUBSTEPS);
   return needed < SBRI_MAX_STRAINED_SUBSTEPS ? needed : SBRI_MAX_STRAINED_SUBSTEPS;
 }
 

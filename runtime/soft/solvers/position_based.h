@@ -252,10 +252,7 @@ static inline uint32_t sbri_position_substeps_now(const sbri_island_tick *t) {
   uint32_t now =
       sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), island->springs.rest_stretch);
   now = now < SBRI_MAX_SUBSTEPS ? now : SBRI_MAX_SUBSTEPS;
-  if (!sbri_has_fixed_substeps(t)) {
-    float crossing = ceilf(fminf(sbri_impact_substeps(t, t->tick_s), SBRI_MAX_SUBSTEPS));
-    now = (float)now < crossing ? (uint32_t)crossing : now;
-  }
+  if (!sbri_has_fixed_substeps(t)) now = sbri_substeps_with_impact(t, t->tick_s, now, SBRI_MAX_SUBSTEPS);
   return now > at_rest ? now : at_rest;
 }
 
@@ -267,6 +264,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < island->body_count; b++)
     followed = followed || t->model->bodies[island->bodies[b]].volume.is_kept;
   sbri_moves_begin(t);
+  sbri_mark_all_compressed(t);
   bool solid = island->tetrahedra.block_count > 0, alone = sbri_moves_alone(t);
   if (solid) sbri_solid_edges_begin(t);
   for (uint32_t s = 0; s < substeps; s++) {

@@ -27,6 +27,18 @@ static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {
   return t->collides || sbri_soft_contacts_any(t) ? 1 : SBRI_SELF_DAMP_EVERY;
 }
 
+/* Distance that a point may travel between two checks, in cells, if the marks of compressed blocks are to
+ * hold until the next. An element of half its volume then stays above the limit. */
+#define SBRI_MARKED_TRAVEL 0.1f
+
+/* After a check, before substeps of h: has all blocks checked by the compression limit if something is fast.
+ */
+static inline void sbri_keep_marks_if_slow(const sbri_island_tick *t, float h) {
+  float travel = SBRI_CHECK_INTERVAL * h * sbri_impact_speed_bound(t);
+  if (t->fraction < 1 || !(travel <= SBRI_MARKED_TRAVEL * t->island->stability.cell_m))
+    sbri_mark_all_compressed(t);
+}
+
 /* Steps the island through a tick. If tetrahedra or gases stiffen beyond the stability limit of the substep,
  * divides the rest of the tick again. The total is at most SBRI_MAX_STRAINED_SUBSTEPS. */
 static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
@@ -39,6 +51,7 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   float h = t->tick_s / (float)left, rest = t->tick_s, self_s = 0, stretches[SBRI_BLOCK] = {0};
   uint32_t damp_every = sbri_self_damp_every(t);
   sbri_store_pinned_begin(t);
+  sbri_mark_all_compressed(t);
   for (uint32_t s = 1; left > 0; s++) {
     bool last = left == 1, checks = last || s % SBRI_CHECK_INTERVAL == 0;
     if (sbri_has_damping(island)) sbri_copy_velocities_to_points(t, 1 / t->tick_s);
@@ -50,6 +63,7 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
       needed = needed < max ? needed : max;
       if (needed > left) left = needed, h = rest / (float)left;
     }
+    if (checks && sbri_is_compressed(t)) sbri_keep_marks_if_slow(t, h);
     bool damps = last || s % damp_every == 0;
     self_s += h;
     sbri_kick(t, h, damps ? self_s : 0, damp_every > 1, last, stretches);

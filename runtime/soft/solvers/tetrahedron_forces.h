@@ -32,11 +32,25 @@ SBRI_INLINE sbri_wide3 sbri_wide3_cross(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/* An element below this volume ratio is compressed: the compression limit (compression_limit.h) may move it
+ * before the next check. */
+#define SBRI_COMPRESSION_NEAR 0.5f
+
 /* Per lane: bound of the stiffening relative to rest, and minimum J. */
 typedef struct sbri_tetrahedron_watch {
   float stiffening[SBRI_BLOCK]; /* bound of the stiffness relative to rest, maximum over elements */
   float min_ratio[SBRI_BLOCK];  /* minimum J */
+  bool is_compressed;           /* some element of the present block is */
 } sbri_tetrahedron_watch;
+
+/* Includes a group of lanes with the volume ratios J. */
+SBRI_INLINE void sbri_watch_ratio(
+    sbri_mask real, sbri_wide ratio, uint32_t lane, sbri_tetrahedron_watch *watch) {
+  sbri_wide min = sbri_wide_load(watch->min_ratio + lane);
+  sbri_wide_store(watch->min_ratio + lane, sbri_wide_select(real, sbri_wide_min(ratio, min), min));
+  watch->is_compressed =
+      watch->is_compressed || sbri_mask_any(real & (ratio < sbri_wide_all(SBRI_COMPRESSION_NEAR)));
+}
 
 /* The block of a corner is V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T) with |cof F g| = |n| / (6 V). The
  * bound is the maximum over the corners of its largest eigenvalue relative to rest, plus the contribution of
@@ -64,10 +78,10 @@ SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, 
   curved = sbri_wide_max(sbri_wide_max(curved, zero - curved) - shear, zero);
   sbri_wide stiffening = (sbri_wide_all(1) + a) * fraction / max + curved / max;
   sbri_mask real = shear > zero;
-  sbri_wide before = sbri_wide_load(watch->stiffening + lane), min = sbri_wide_load(watch->min_ratio + lane);
+  sbri_wide before = sbri_wide_load(watch->stiffening + lane);
   sbri_wide_store(
       watch->stiffening + lane, sbri_wide_select(real, sbri_wide_max(stiffening, before), before));
-  sbri_wide_store(watch->min_ratio + lane, sbri_wide_select(real, sbri_wide_min(ratio, min), min));
+  sbri_watch_ratio(real, ratio, lane, watch);
 }
 
 /* Viscous forces, subtracted from f, at the rates w of the edges d: -beta V F S g_i, with S Hooke's stress of
@@ -166,11 +180,13 @@ SBRI_INLINE void sbri_tetrahedron_blocks(
     const sbri_tetrahedron_block *block = &blocks[b];
     const float *of = betas ? betas + (size_t)b * SBRI_BLOCK : NULL;
     sbri_wide3 forces[GROUPS][4];
+    if (watch) watch->is_compressed = false;
     for (uint32_t group = 0; group < GROUPS; group++) {
       sbri_tetrahedron_edges now =
           GROUPS == 1 ? next : sbri_tetrahedron_edges_of(x, block, group * SBRI_LANES);
       sbri_tetrahedron_lanes(t, block, now.d, group * SBRI_LANES, of, watch, forces[group]);
     }
+    if (watch) t->solids.compressed[b] = watch->is_compressed;
     if (GROUPS == 1) next = sbri_tetrahedron_edges_of(x, block + (b + 1 < count), 0);
 #define SBRI_SCATTER(k)                                                                                      \
   for (uint32_t group = 0; group < GROUPS; group++)                                                          \
@@ -199,6 +215,7 @@ static inline void sbri_compute_tetrahedron_forces(const sbri_island_tick *t, sb
 
 static inline void sbri_watch_begin(sbri_tetrahedron_watch *watch) {
   for (int lane = 0; lane < SBRI_BLOCK; lane++) watch->stiffening[lane] = 0, watch->min_ratio[lane] = 1;
+  watch->is_compressed = false;
 }
 static inline float sbri_watch_stiffening(const sbri_tetrahedron_watch *watch) {
   float greatest = 1;
@@ -213,7 +230,8 @@ static inline float sbri_watch_min_ratio(const sbri_tetrahedron_watch *watch) {
   return min;
 }
 
-/* Computes the forces. With `checks`, also updates the stiffening and the minimum J in the tick's state. */
+/* Computes the forces. With `checks`, also updates the stiffening and the minimum J in the tick's state and
+ * the marks of compressed blocks. */
 static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool checks) {
   sbri_tetrahedron_watch watch;
   sbri_watch_begin(&watch);
