@@ -5,8 +5,14 @@
  * frames from the first touch on, dropped from a hand's breadth. Two of a character that walk side by side,
  * over the two where bodies do not touch each other (`pair_alone`): where they may and are 4 m apart
  * (`pair_apart`), and so close that they do (`pair_touching`). Medians of the frames' processor time, where
- * each frame counts the least of several runs. */
+ * each frame counts the least of several runs.
+ *
+ * `threads`: bodies of about 100,000 tetrahedra, the armadillo in flight and the slab on the floor, where two
+ * threads divide the work within the body; the ratio is one thread's time over theirs. The processor time of
+ * the busier thread counts: what two free cores would take but for waking each other.
+ */
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -16,6 +22,7 @@
 #include "sbfmt/asset.h"
 #include "sbrun/collision.h"
 #include "sbrun/sbrun.h"
+#include "thread_pool.h"
 
 typedef struct scene {
   const char *name;
@@ -136,6 +143,84 @@ static void measure_pair(const char *name, sbf_asset *asset, double touching_m, 
   sbf_asset_free(asset);
 }
 
+/* ---- Threads within a body ---- */
+
+/* A world whose tasks are timed where another thread runs them. */
+typedef struct timed_world {
+  sbr_world *world;
+  thread_pool *pool;
+  sbr_tasks workers;
+  pthread_t caller;
+  sbr_task *task;
+  void *context;
+  double helper_s; /* the other thread's time in this frame */
+} timed_world;
+
+static void run_timed_task(void *context, uint32_t index) {
+  timed_world *w = context;
+  bool helps = !pthread_equal(pthread_self(), w->caller);
+  double begin = helps ? bench_now_s() : 0;
+  w->task(w->context, index);
+  if (helps) w->helper_s += bench_now_s() - begin;
+}
+
+static void run_timed(void *user, sbr_task *task, void *context, uint32_t count) {
+  timed_world *w = user;
+  w->task = task, w->context = context;
+  w->workers.run(w->workers.user, run_timed_task, w, count);
+}
+
+static void open_timed(timed_world *w, const sbr_model *model, double height_m, uint32_t threads) {
+  sbf_diagnostic error;
+  sbr_character_id character;
+  sbr_world_definition definition = sbr_default_world_definition();
+  sbr_character_definition standing = sbr_default_character_definition();
+  *w = (timed_world){.pool = thread_pool_create(threads), .caller = pthread_self()};
+  if (!w->pool) bench_fail("no threads");
+  w->workers = thread_pool_tasks(w->pool);
+  if (w->workers.run) definition.tasks = (sbr_tasks){run_timed, w};
+  definition.sleep_after_s = 0;
+  standing.position.y = height_m;
+  bench_require(sbr_world_create(&definition, &w->world, &error), &error);
+  bench_require(sbr_character_create(w->world, model, &standing, &character, &error), &error);
+}
+
+/* One thread and two take turns frame by frame, so that a busy machine slows down both. */
+static void run_threads(const sbr_model *model, const scene *s, uint32_t number, fall falls[2]) {
+  timed_world worlds[2];
+  for (uint32_t k = 0; k < 2; k++) open_timed(&worlds[k], model, s->height_m, k + 1);
+  for (uint32_t i = 0; i < s->end; i++)
+    for (uint32_t k = 0; k < 2; k++) {
+      timed_world *w = &worlds[k];
+      w->helper_s = 0;
+      double begin = bench_now_s();
+      sbr_world_tick(w->world);
+      double taken = fmax(bench_now_s() - begin, w->helper_s);
+      if (number == 0 || taken < falls[k].min[i]) falls[k].min[i] = taken;
+    }
+  if (sbr_world_get_state_hash(worlds[0].world) != sbr_world_get_state_hash(worlds[1].world))
+    bench_fail("two threads give other bits than one");
+  for (uint32_t k = 0; k < 2; k++) {
+    sbr_world_destroy(worlds[k].world);
+    thread_pool_destroy(worlds[k].pool);
+  }
+}
+
+static void measure_threads(const char *body, sbf_asset *asset, double height_m, bool quick) {
+  if (!asset) return;
+  const scene s = {"threads", height_m - (double)lowest_of(asset), 5, quick ? 8 : 25};
+  fall falls[2];
+  sbr_model *model;
+  sbf_diagnostic error;
+  damp(asset);
+  bench_require(sbr_model_create(asset, NULL, &model, &error), &error);
+  for (uint32_t r = 0; r < (quick ? 1 : RUNS); r++) run_threads(model, &s, r, falls);
+  double one = median(&falls[0], &s), two = median(&falls[1], &s);
+  bench_print_row("%s,%s,%.1f,%.2f", body, s.name, 1e6 * two, one / two);
+  sbr_model_destroy(model);
+  sbf_asset_free(asset);
+}
+
 int main(int argument_count, char **arguments) {
   bool quick = bench_is_quick(argument_count, arguments);
   bench_print_columns("body,scene,frame_us,ratio");
@@ -144,5 +229,8 @@ int main(int argument_count, char **arguments) {
   measure_pair(
       "pup", character_asset(BENCH_SOURCE_FOLDER "/examples/pup", "pup.glb", NULL, true), 0.42, quick);
   measure_pair("lizard", our_lizard(true), 0.47, quick);
+  const uint32_t many = quick ? 30000 : 100000;
+  measure_threads("armadillo", armadillo_of_tetrahedra(many), 100, quick);
+  measure_threads("slab", slab_of_tetrahedra(many), 0.01, quick);
   return 0;
 }

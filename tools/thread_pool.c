@@ -4,55 +4,74 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+/* Rounds of tasks follow each other within microseconds while a large body is stepped. A thread polls so many
+ * times for the next one before it sleeps: a few microseconds, for waking it takes longer. */
+enum { POLLS = 2000 };
+
+/* A call of run. */
+typedef struct round {
+  sbr_task *task;
+  void *context;
+  uint32_t number, count;
+} round;
+
 struct thread_pool {
   pthread_mutex_t mutex;
   pthread_cond_t work, done;
   pthread_t threads[64];
   uint32_t helper_count;
-  uint64_t round; /* counts the calls of run, so that threads detect a new one */
-  uint32_t busy;
   bool ending;
-  sbr_task *task;
-  void *context;
-  uint32_t count;
-  atomic_uint next;
+  round now;
+  _Atomic uint64_t next; /* number of the round << 32, and its next task */
+  atomic_uint left;      /* tasks that are not done */
 };
 
-static void run_tasks(thread_pool *pool) {
-  for (uint32_t i; (i = atomic_fetch_add(&pool->next, 1)) < pool->count;) pool->task(pool->context, i);
+/* A thread that wakes late finds another round, and takes no task. */
+static void run_tasks(thread_pool *pool, const round *r) {
+  uint64_t next = atomic_load(&pool->next);
+  while (next >> 32 == r->number && (uint32_t)next < r->count) {
+    if (!atomic_compare_exchange_weak(&pool->next, &next, next + 1)) continue;
+    r->task(r->context, (uint32_t)next);
+    if (atomic_fetch_sub(&pool->left, 1) == 1) {
+      pthread_mutex_lock(&pool->mutex);
+      pthread_cond_signal(&pool->done);
+      pthread_mutex_unlock(&pool->mutex);
+    }
+    next = atomic_load(&pool->next);
+  }
 }
 
 static void *work(void *argument) {
   thread_pool *pool = argument;
-  uint64_t seen = 0;
-  pthread_mutex_lock(&pool->mutex);
+  round r = {0};
   for (;;) {
-    while (pool->round == seen && !pool->ending) pthread_cond_wait(&pool->work, &pool->mutex);
-    if (pool->ending) break;
-    seen = pool->round;
-    pthread_mutex_unlock(&pool->mutex);
-    run_tasks(pool);
+    for (int i = 0; i < POLLS && atomic_load(&pool->next) >> 32 == r.number; i++)
+      ;
     pthread_mutex_lock(&pool->mutex);
-    if (--pool->busy == 0) pthread_cond_signal(&pool->done);
+    while (pool->now.number == r.number && !pool->ending) pthread_cond_wait(&pool->work, &pool->mutex);
+    r = pool->now;
+    bool ending = pool->ending;
+    pthread_mutex_unlock(&pool->mutex);
+    if (ending) return NULL;
+    run_tasks(pool, &r);
   }
-  pthread_mutex_unlock(&pool->mutex);
-  return NULL;
 }
 
 static void run(void *user, sbr_task *task, void *context, uint32_t count) {
   thread_pool *pool = user;
+  if (count == 0) return;
   pthread_mutex_lock(&pool->mutex);
-  pool->task = task;
-  pool->context = context;
-  pool->count = count;
-  atomic_store(&pool->next, 0);
-  pool->busy = pool->helper_count;
-  pool->round++;
+  pool->now = (round){task, context, pool->now.number + 1, count};
+  round r = pool->now;
+  atomic_store(&pool->left, count);
+  atomic_store(&pool->next, (uint64_t)r.number << 32);
   pthread_cond_broadcast(&pool->work);
   pthread_mutex_unlock(&pool->mutex);
-  run_tasks(pool);
+  run_tasks(pool, &r);
+  for (int i = 0; i < POLLS && atomic_load(&pool->left); i++)
+    ;
   pthread_mutex_lock(&pool->mutex);
-  while (pool->busy) pthread_cond_wait(&pool->done, &pool->mutex);
+  while (atomic_load(&pool->left)) pthread_cond_wait(&pool->done, &pool->mutex);
   pthread_mutex_unlock(&pool->mutex);
 }
 

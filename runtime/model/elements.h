@@ -43,6 +43,28 @@ typedef struct sbri_tetrahedron_block {
   float shear[SBRI_BLOCK];          /* Pa: mu / 6 */
 } sbri_tetrahedron_block;
 
+/* Where the forces on the corners of a block go if several tasks compute those of an island: slots, or
+ * entries of their own behind them. */
+typedef struct sbri_force_targets {
+  uint32_t at[4][SBRI_BLOCK];
+} sbri_force_targets;
+
+/* Division of an island's element forces among tasks (prepare/force_parts.c). Each part is a range of blocks.
+ * The first part that touches a point sums its forces directly; later ones store each of theirs in an entry.
+ * Entries are then added in the order of the blocks, so the sums have the bits of one task that computes
+ * all. */
+typedef struct sbri_force_parts {
+  uint32_t count;
+  const uint32_t *begins;         /* (count + 1) blocks */
+  const uint32_t *rows_of;        /* (dense blocks) into `rows`; UINT32_MAX: all go to the corners */
+  const sbri_force_targets *rows; /* slots, or first_entry and more */
+  const uint32_t *shared_slots;   /* (shared_count) slots that have entries, ascending */
+  const uint32_t *entry_begins;   /* (shared_count + 1) entries of each */
+  uint32_t shared_count;
+  uint32_t first_entry, entry_count; /* in element_forces of the island */
+} sbri_force_parts;
+enum { SBRI_MAX_PARTS = 16 };
+
 /* One point of each of eight shape matching regions (soft/solvers/region_forces.h). Padding lanes name the
  * region's first point and contain zeros. */
 typedef struct sbri_region_member {

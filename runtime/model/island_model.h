@@ -93,6 +93,9 @@ typedef struct sbri_island_tetrahedra {
   bool are_limited;                        /* some tetrahedron has strain limits */
   bool flow;                               /* some tetrahedron yields or tears, so the blocks are state */
   const sbri_tear_table *tears;            /* NULL: no tetrahedron tears */
+  uint32_t part_count;                     /* compact parts of the dense blocks, if there are many */
+  const uint32_t *part_begins;             /* (part_count + 1) */
+  const sbri_force_parts *parts;           /* of these; NULL: tasks do not divide the forces */
   uint32_t first_state_block, first_state; /* its blocks and tetrahedra in the character's state */
 } sbri_island_tetrahedra;
 

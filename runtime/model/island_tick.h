@@ -118,9 +118,10 @@ typedef struct sbri_island_tick {
   const sbri_island *island;
   float
       tick_s; /* length of the tick, s; a fraction of a control tick if the island steps with rigid bodies: */
-  float fraction; /* that fraction; 1: a whole tick */
-  bool collides;  /* has contacts with bodies of other characters */
-  bool undamped;  /* the caller applies damping relative to the drivers */
+  float fraction;         /* that fraction; 1: a whole tick */
+  bool collides;          /* has contacts with bodies of other characters */
+  bool undamped;          /* the caller applies damping relative to the drivers */
+  const sbr_tasks *tasks; /* tasks that may divide the work of the tick; NULL: none. The result is the same */
   sbri_environment environment;
   sbri_point *positions;          /* (slot_count) */
   float *velocities;              /* (free_count x 3) blocks of three by eight; of the relaxation scheme the
@@ -137,6 +138,14 @@ typedef struct sbri_island_tick {
   float step_error_m;       /* of schemes that control their error, asset metres */
   uint32_t *element_visits; /* element visits, accumulated; NULL: not counted */
 } sbri_island_tick;
+
+/* Runs task(context, i) for i below count, and returns when all are done. */
+static inline void sbri_run_tasks(const sbri_island_tick *t, sbr_task *task, void *context, uint32_t count) {
+  if (t->tasks && count > 1)
+    t->tasks->run(t->tasks->user, task, context, count);
+  else
+    for (uint32_t i = 0; i < count; i++) task(context, i);
+}
 
 static inline void sbri_count_element_visits(const sbri_island_tick *t, uint32_t element_visits) {
   if (t->element_visits) *t->element_visits += element_visits;

@@ -55,6 +55,7 @@ typedef struct sbri_model_counts {
   uint32_t flows;                                      /* links of islands whose springs yield or tear */
   uint32_t torn_cells, torn_blocks, torn_link_blocks;  /* of islands whose springs may tear */
   uint32_t state_tetrahedron_blocks, state_tetrahedra; /* of islands whose tetrahedra yield or tear */
+  uint32_t force_entries;                              /* of islands that several tasks may step */
   uint32_t skin_cells, bindings, polygons;             /* of all skins that may tear */
 } sbri_model_counts;
 

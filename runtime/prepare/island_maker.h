@@ -59,6 +59,14 @@ bool sbri_solid_limits_make(sbri_island_maker *m);
 bool sbri_tetrahedra_list(sbri_island_maker *m); /* lists active tetrahedra and their moduli */
 /* The island's tetrahedra for a network over its slots; the arrays are scratch. */
 bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network);
+/* Ranges of elements, one per task that computes their forces; a single one if they are few. */
+typedef struct sbri_element_parts {
+  uint32_t count;
+  uint32_t begins[SBRI_MAX_PARTS + 1];
+} sbri_element_parts;
+/* Orders the tetrahedra (island count) by part. `corners` are slots. */
+bool sbri_element_parts_find(
+    sbri_island_maker *m, const sbf_uint4 *corners, uint32_t *ordered, sbri_element_parts *parts);
 /* Builds the blocks from `network`. */
 bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *network);
 /* Regions of shape matching bodies; sets `region_rad_s` to the highest frequency. */

@@ -62,6 +62,8 @@ typedef struct packing {
   uint64_t open;
   uint32_t at[OPEN_BLOCKS], filled[OPEN_BLOCKS]; /* number and lanes of each open block */
   uint32_t block_count;
+  uint32_t part_ends[SBRI_MAX_PARTS]; /* end of each part's blocks */
+  sbri_element_parts parts;
 } packing;
 
 static void close_block(packing *p, uint32_t index) {
@@ -148,11 +150,13 @@ static void ensure_spare(packing *p, uint32_t block) {
   }
 }
 
-/* Full blocks first, then the others without unused lanes, then the others as they are. */
-static void arrange(const packing *p, uint32_t *ordered, sbri_island *island) {
-  uint32_t full = 0, loose = 0, next;
+/* Full blocks first, then the others without unused lanes, then the others as they are. `begins`: where the
+ * blocks of each part begin; the others without unused lanes belong to the last one. */
+static void arrange(const packing *p, uint32_t *ordered, sbri_island *island, uint32_t *begins) {
+  uint32_t full = 0, loose = 0, part = 0, next;
   for (uint32_t block = 0; block < p->block_count; block++) {
     uint32_t count = lanes_filled(p, block);
+    for (; part < p->parts.count && block >= p->part_ends[part]; part++) begins[part + 1] = full;
     if (count == SBRI_BLOCK)
       memcpy(ordered + (size_t)SBRI_BLOCK * full++, p->elements + (size_t)block * SBRI_BLOCK,
           SBRI_BLOCK * sizeof *ordered);
@@ -162,6 +166,8 @@ static void arrange(const packing *p, uint32_t *ordered, sbri_island *island) {
   island->tetrahedra.full_count = full;
   island->tetrahedra.dense_count = full + (loose + SBRI_BLOCK - 1) / SBRI_BLOCK;
   island->tetrahedra.block_count = island->tetrahedra.dense_count;
+  for (; part < p->parts.count; part++) begins[part + 1] = island->tetrahedra.dense_count;
+  begins[p->parts.count] = island->tetrahedra.dense_count;
   next = full * SBRI_BLOCK;
   for (uint32_t block = 0; block < p->block_count; block++) {
     const uint32_t *lanes = p->elements + (size_t)block * SBRI_BLOCK;
@@ -177,14 +183,23 @@ static void arrange(const packing *p, uint32_t *ordered, sbri_island *island) {
 
 static bool pack(sbri_island_maker *m, packing *p) {
   sbri_island *island = m->island;
-  size_t count = island->tetrahedra.count;
-  p->elements = sbri_scratch(m, count * SBRI_BLOCK, sizeof *p->elements);
+  uint32_t count = island->tetrahedra.count;
+  p->elements = sbri_scratch(m, (size_t)count * SBRI_BLOCK, sizeof *p->elements);
   p->users = sbri_scratch(m, island->free_count, sizeof *p->users);
-  uint32_t *ordered = sbri_scratch(m, 2 * count * SBRI_BLOCK, sizeof *ordered);
+  uint32_t *ordered = sbri_scratch(m, 2 * (size_t)count * SBRI_BLOCK, sizeof *ordered);
   if (!p->elements || !p->users || !ordered) return false;
-  for (uint32_t t = 0; t < count; t++) add_element(p, t);
+  if (!sbri_element_parts_find(m, p->corners, ordered, &p->parts)) return false;
+  uint32_t *begins = sbri_model_allocate(m, (size_t)p->parts.count + 1, sizeof *begins);
+  if (!begins) return false;
+  for (uint32_t part = 0; part < p->parts.count; part++) {
+    for (uint32_t i = p->parts.begins[part]; i < p->parts.begins[part + 1]; i++) add_element(p, ordered[i]);
+    for (uint32_t index = 0; index < OPEN_BLOCKS; index++)
+      if (p->open >> index & 1) close_block(p, index);
+    p->part_ends[part] = p->block_count;
+  }
   for (uint32_t block = 0; block < p->block_count; block++) ensure_spare(p, block);
-  arrange(p, ordered, island);
+  arrange(p, ordered, island, begins);
+  island->tetrahedra.part_count = p->parts.count, island->tetrahedra.part_begins = begins;
   p->elements = ordered;
   return true;
 }

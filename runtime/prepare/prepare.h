@@ -43,6 +43,9 @@ bool sbri_coupling_make(sbr_model *model);
 void sbri_attached_mass_join(sbr_model *model);
 /* Neighbouring tetrahedra, and those around each point; false if memory runs out. */
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
+/* Division of the element forces of a large island among tasks; call it when the slots of all islands are
+ * known. */
+bool sbri_force_parts_make(sbr_model *model, sbri_island *island);
 /* Contact samples; call it after the surfaces are made. */
 bool sbri_samples_make(sbr_model *model, sbri_body *body);
 bool sbri_coarse_edges_make(sbr_model *model, sbri_body *body);

@@ -132,6 +132,8 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     model->counts.region_blocks += island->regions.block_count;
     if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);
   }
+  for (uint32_t i = 0; status == SBF_OK && i < model->island_count; i++) /* now that all slots are known */
+    if (!sbri_force_parts_make(model, &model->islands[i])) return no_memory(error);
   return status;
 }
 

@@ -11,7 +11,17 @@
 #include "soft/solvers/soft_contacts.h"
 #include "soft/tear/tear.h"
 
-void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) {
+/* Springs of an island from which on tasks divide its tick. */
+enum { MIN_DIVIDED_SPRINGS = 20000 };
+
+bool sbri_island_may_divide(const sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  const sbri_island_state *state = &sbri_island_states(c)[index];
+  bool large = island->tetrahedra.parts || island->springs.count >= MIN_DIVIDED_SPRINGS;
+  return large && !state->asleep && sbri_router_scheme(island, &state->recovery) == &sbri_symplectic;
+}
+
+void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index, const sbr_tasks *tasks) {
   if (sbri_island_sleeps(world, c, index)) return;
   SBF_ASSERT(index < c->model->island_count && world->tick_s > 0 && c->time_scale > 0);
   const sbr_model *model = c->model;
@@ -25,6 +35,7 @@ void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) 
   sbri_island_store_motions(c, index);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, island);
   tick.surfaces.external_rad_s = &now.stability.external_rad_s;
+  tick.tasks = tasks;
   if (!island->scheme->forceless) sbri_update_gas_stiffness(&tick), sbri_island_prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[index].recovery)->tick(&tick);
   sbri_island_report_contacts(&tick, c);

@@ -150,7 +150,10 @@ void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_
 
 /* ---- soft/island_run.c ---- */
 
-/* Steps an island that is neither grouped nor coupled by one control tick. */
-void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t island);
+/* Steps an island that is neither grouped nor coupled by one control tick. `tasks`: those that may divide its
+ * work, or NULL; the result is the same. */
+void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t island, const sbr_tasks *tasks);
+/* Whether the island is large enough for that in this tick, and its integrator can. */
+bool sbri_island_may_divide(const sbri_character *c, uint32_t island);
 
 #endif

@@ -29,6 +29,6 @@ void sbri_work_list(sbr_world *world) {
         model && !sbri_header(&world->characters[i])->paused && !sbri_header(&world->characters[i])->asleep;
     for (uint32_t k = 0; steps && k < model->island_count; k++)
       SBF_ASSERT(world->work_count < world->work_capacity),
-          world->work[world->work_count++] = (sbri_work){i, k};
+          world->work[world->work_count++] = (sbri_work){i, k, false};
   }
 }

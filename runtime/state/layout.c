@@ -138,7 +138,7 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->solids.edges = position(&end, (size_t)model->counts.tetrahedron_blocks * 9 * SBRI_BLOCK, sizeof(float));
   l->solids.compressed = position(&end, model->counts.tetrahedron_blocks, 1);
   l->solids.tears = position(&end, model->island_count, sizeof(sbri_tears));
-  l->points.element_forces = position(&end, slots, sizeof(sbri_point));
+  l->points.element_forces = position(&end, slots + model->counts.force_entries, sizeof(sbri_point));
   l->contacts.planes = position(&end, 4 * slots, sizeof(float));
   l->contacts.pressing = position(&end, 2 * slots, sizeof(float));
   l->contacts.near_ground = position(&end, slots / SBRI_BLOCK + 1, 1);

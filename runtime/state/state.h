@@ -191,11 +191,11 @@ SBRI_SCRATCH_PART(edges, float, springs.edges)                         /* (count
 SBRI_SCRATCH_PART(solid_edges, float, solids.edges)                    /* (counts.tetrahedron_blocks x 72) */
 SBRI_SCRATCH_PART(compressed_blocks, uint8_t, solids.compressed)       /* (counts.tetrahedron_blocks) */
 SBRI_SCRATCH_PART(tears_of, sbri_tears, solids.tears)                  /* (island_count) */
-SBRI_SCRATCH_PART(element_forces, sbri_point, points.element_forces)   /* (slot_count) */
-SBRI_SCRATCH_PART(loads_now, sbri_loads_now_list, loads_now)           /* of this tick */
-SBRI_SCRATCH_PART(visits, uint32_t, solids.visits)                     /* (counts.state_tetrahedra x 2) */
-SBRI_SCRATCH_PART(queue, uint32_t, solids.queue)                       /* (counts.state_tetrahedra) */
-SBRI_SCRATCH_PART(touched, uint8_t, split.touched)                     /* (counts.bindings) */
+SBRI_SCRATCH_PART(element_forces, sbri_point, points.element_forces) /* (slot_count + counts.force_entries) */
+SBRI_SCRATCH_PART(loads_now, sbri_loads_now_list, loads_now)         /* of this tick */
+SBRI_SCRATCH_PART(visits, uint32_t, solids.visits)                   /* (counts.state_tetrahedra x 2) */
+SBRI_SCRATCH_PART(queue, uint32_t, solids.queue)                     /* (counts.state_tetrahedra) */
+SBRI_SCRATCH_PART(touched, uint8_t, split.touched)                   /* (counts.bindings) */
 SBRI_SCRATCH_PART(owners, uint32_t, springs.owners) /* (slot_count x 2) where springs may tear */
 SBRI_SCRATCH_PART(frayed, uint8_t, springs.torn) /* (slot_count) where springs may tear: near a torn spring */
 SBRI_SCRATCH_PART(planes, float, contacts.planes)                        /* (slot_count x 4) */

@@ -41,6 +41,7 @@ enum { SBRI_TIME_SLACK = 4096 };
 /* Task of the island stage: one island of one character. */
 typedef struct sbri_work {
   uint32_t character, island;
+  bool is_divided; /* among tasks of its own, after all others */
 } sbri_work;
 
 struct sbr_world {

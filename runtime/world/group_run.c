@@ -190,7 +190,7 @@ static void end(const sbr_world *world, sbri_group_member *m) {
     end_island(world, m, i);
   }
   for (uint32_t i = 0; i < c->model->island_count; i++)
-    if (c->model->islands[i].scheme->forceless) sbri_island_run(world, c, i);
+    if (c->model->islands[i].scheme->forceless) sbri_island_run(world, c, i, NULL);
 }
 
 /* Rounds up to one of few step counts: counts that change from tick to tick excite oscillations. */

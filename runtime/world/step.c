@@ -1,6 +1,7 @@
 /* Steps a world by one control tick: first the characters' animation, then contacts between characters, then
- * soft-body islands. Each stage is a set of tasks. No task writes what another task reads, so the result has
- * the same bits for any number of threads and any order. */
+ * soft-body islands. Each stage is a set of tasks; a few large islands follow one by one, each divided among
+ * tasks. No task writes what another task reads, so the result has the same bits for any number of threads
+ * and any order. */
 #include <string.h>
 
 #include "coupling/body_contact/body_contacts.h"
@@ -27,12 +28,33 @@ static void change_detail_level(void *context, uint32_t index) {
   sbri_contact_surfaces_select_level(world, index);
 }
 
+/* With more large islands than this, each is a task, and threads need not wait for each other in a tick. */
+enum { MAX_DIVIDED = 4 };
+
+static bool is_stepped_alone(const sbr_world *world, const sbri_work *work) {
+  sbri_character *c = &world->characters[work->character];
+  return !sbri_character_is_grouped(world, c) && !sbri_island_is_coupled(c, work->island);
+}
+
 static void tick_island(void *context, uint32_t index) {
   sbr_world *world = context;
-  sbri_work work = world->work[index];
-  sbri_character *c = &world->characters[work.character];
-  if (!sbri_character_is_grouped(world, c) && !sbri_island_is_coupled(c, work.island))
-    sbri_island_run(world, c, work.island);
+  const sbri_work *work = &world->work[index];
+  if (!work->is_divided && is_stepped_alone(world, work))
+    sbri_island_run(world, &world->characters[work->character], work->island, NULL);
+}
+
+/* Marks the large islands whose work is divided. */
+static uint32_t mark_divided(sbr_world *world) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; world->tasks.run && i < world->work_count; i++) {
+    sbri_work *work = &world->work[i];
+    work->is_divided = is_stepped_alone(world, work) &&
+                       sbri_island_may_divide(&world->characters[work->character], work->island);
+    count += work->is_divided;
+  }
+  if (count <= MAX_DIVIDED) return count;
+  for (uint32_t i = 0; i < world->work_count; i++) world->work[i].is_divided = false;
+  return 0;
 }
 
 static void tick_group(void *context, uint32_t index) {
@@ -75,7 +97,13 @@ void sbri_step_tick(sbr_world *world) {
   }
   sbri_stage_end(world, SBR_STAGE_CONTACT_GROUPS);
   sbri_work_list(world);
-  run(world, tick_island, world->work_count);
+  uint32_t divided_count = mark_divided(world);
+  if (divided_count < world->work_count) run(world, tick_island, world->work_count);
+  for (uint32_t i = 0; divided_count > 0 && i < world->work_count; i++) {
+    const sbri_work *work = &world->work[i];
+    if (work->is_divided)
+      sbri_island_run(world, &world->characters[work->character], work->island, &world->tasks);
+  }
   sbri_stage_end(world, SBR_STAGE_ISLANDS);
   follow_tears(world);
   sbri_tick_events_gather(world);

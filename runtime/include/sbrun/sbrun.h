@@ -75,7 +75,8 @@ SBF_API sbr_ground sbr_ground_noise(double height_m, uint32_t seed);
 
 /* Runs task(context, i) for i below count, in any order, on any threads, and returns when all are done. */
 typedef void sbr_task(void *context, uint32_t index);
-/* The host's threads. */
+/* The host's threads. A tick calls `run` for each of its stages, and often while it steps a large body (docs/
+ * solvers.md, "Threads within a body"); never from within a task. */
 typedef struct sbr_tasks {
   void (*run)(void *user, sbr_task *task, void *context, uint32_t count); /* NULL: serial */
   void *user;                                                             /* the host's */

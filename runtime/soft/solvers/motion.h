@@ -14,6 +14,7 @@
 #include "contact/contact.h"
 #include "math/trig.h"
 #include "soft/solvers/contact_lanes.h"
+#include "soft/solvers/divided_forces.h"
 #include "soft/solvers/external_forces.h"
 #include "soft/solvers/loads.h"
 #include "soft/solvers/reaction.h"
@@ -94,12 +95,38 @@ static inline sbri_wide3 sbri_decayed(
   return v;
 }
 
+/* Slots from `begin` to `end` of a body. */
+typedef struct sbri_slot_range {
+  const sbri_body *body;
+  uint32_t begin, end;
+} sbri_slot_range;
+
+static inline sbri_slot_range sbri_slots_of(const sbri_body *body) {
+  return (sbri_slot_range){body, body->slots.begin, body->slots.end};
+}
+
+/* Number of slots of a task: fewer cost less than starting it. */
+enum { SBRI_TASK_SLOTS = 2048 };
+
+/* Number of tasks among which loops over the body's slots are divided. */
+static inline uint32_t sbri_count_slot_tasks(const sbri_island_tick *t, const sbri_body *body) {
+  uint32_t count = t->tasks ? (body->slots.end - body->slots.begin) / SBRI_TASK_SLOTS : 1;
+  return count < 1 ? 1 : count < SBRI_MAX_PARTS ? count : SBRI_MAX_PARTS;
+}
+
+/* Slots of task `index` of `count`: whole blocks. */
+static inline sbri_slot_range sbri_slots_of_task(const sbri_body *body, uint32_t index, uint32_t count) {
+  uint64_t blocks = (body->slots.end - body->slots.begin) / SBRI_BLOCK;
+  return (sbri_slot_range){body, body->slots.begin + (uint32_t)(blocks * index / count) * SBRI_BLOCK,
+      body->slots.begin + (uint32_t)(blocks * (index + 1) / count) * SBRI_BLOCK};
+}
+
 /* v += h a(x), then damping. `spring_sums`, if not NULL, receives the sums of the spring forces. */
-SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay decay,
+SBRI_INLINE void sbri_kick_slots(const sbri_island_tick *t, sbri_slot_range range, float h, sbri_decay decay,
     int kind, float *stretches, sbri_spring_sums *spring_sums) {
   sbri_wide step = sbri_wide_all(h);
-  bool is_to_driver = sbri_is_damped_to_driver(t, body, decay);
-  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
+  bool is_to_driver = sbri_is_damped_to_driver(t, range.body, decay);
+  for (uint32_t slot = range.begin; slot < range.end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
     sbri_wide3 a = sbri_acceleration(t, slot, x, kind, stretches);
@@ -111,16 +138,99 @@ SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body
   }
 }
 
+static inline sbri_contact_rule sbri_contact_rule_of(
+    const sbri_island_tick *t, const sbri_body *body, float h) {
+  float slack = body->contact.samples ? SBRI_SLACK_FRACTION * body->rest_size_m : 0;
+  return (sbri_contact_rule){body->contact.friction, body->contact.restitution, body->contact.frictions, h,
+      SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S, t->contacts.pressing};
+}
+
+/* x += h v for these slots, above the ground planes. */
+static inline void sbri_drift_slots(const sbri_island_tick *t, sbri_slot_range range, float h) {
+  sbri_wide step = sbri_wide_all(h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(t, range.body, h);
+  for (uint32_t slot = range.begin; slot < range.end; slot += SBRI_LANES) {
+    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    float *velocity = sbri_triple(t->velocities, slot);
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
+    if (t->contacts.near_ground[block]) {
+      sbri_contact_move(&x, &v, t->contacts.planes + 4 * (block * SBRI_BLOCK) + lane, &rule, slot);
+      sbri_store3(velocity, v);
+    } else {
+      x.x = x.x + step * v.x;
+      x.y = x.y + step * v.y;
+      x.z = x.z + step * v.z;
+    }
+    sbri_wide_store_points(t->positions + slot, x);
+  }
+}
+
 /* Maximum number of substeps that share one damping of a body without pins. Finding the rigid motion costs a
  * seventh of a substep of tetrahedra; sharing it changes the decay by a fraction of alpha h. */
 enum { SBRI_SELF_DAMP_EVERY = 4 };
 
+/* Whether loads or contacts act on the body, which need all its velocities at once. */
+static inline bool sbri_has_impulses(const sbri_island_tick *t, const sbri_body *body) {
+  return sbri_soft_contact_count(t, body) > 0 || sbri_is_loaded(t, body);
+}
+
+/* A task that changes the velocities of its slots. */
+typedef struct sbri_kick_work {
+  const sbri_island_tick *tick;
+  const sbri_body *body;
+  float h;
+  int kind;
+  bool are_forces_divided, drifts;
+  uint32_t task_count;
+  float stretches[SBRI_MAX_PARTS][SBRI_BLOCK];
+} sbri_kick_work;
+
+static inline void sbri_kick_task(void *context, uint32_t index) {
+  sbri_kick_work *w = context;
+  const sbri_island_tick *t = w->tick;
+  sbri_slot_range range = sbri_slots_of_task(w->body, index, w->task_count);
+  sbri_decay decay = sbri_decay_of(w->body, w->h);
+  float *stretches = w->stretches[index];
+  if (w->are_forces_divided) sbri_join_forces(t, range.begin, range.end);
+#define SBRI_CALL(force_kind) sbri_kick_slots(t, range, w->h, decay, force_kind, stretches, NULL)
+  SBRI_FOR_FORCE_KIND(w->kind, SBRI_CALL)
+#undef SBRI_CALL
+  if (w->are_forces_divided) sbri_clear_forces(t, range.begin, range.end);
+  if (w->drifts) sbri_drift_slots(t, range, w->h);
+}
+
+/* sbri_kick_slots for a body by several tasks. */
+static inline void sbri_kick_by_tasks(
+    const sbri_island_tick *t, const sbri_body *body, float h, int kind, bool drifts, float *stretches) {
+  sbri_kick_work work = {.tick = t,
+      .body = body,
+      .h = h,
+      .kind = kind,
+      .are_forces_divided = sbri_are_forces_divided(t),
+      .drifts = drifts,
+      .task_count = sbri_count_slot_tasks(t, body)};
+  for (uint32_t i = 0; i < work.task_count; i++) memcpy(work.stretches[i], stretches, sizeof *work.stretches);
+  sbri_run_tasks(t, sbri_kick_task, &work, work.task_count);
+  for (uint32_t i = 0; i < work.task_count; i++)
+    for (int lane = 0; lane < SBRI_BLOCK; lane++)
+      if (work.stretches[i][lane] > stretches[lane]) stretches[lane] = work.stretches[i][lane];
+}
+
+/* Whether nothing happens between the kick and the drift of a substep that needs all points at once. Then
+ * tasks do both. */
+static inline bool sbri_drifts_with_kick(const sbri_island_tick *t, float self_s) {
+  const sbri_body *body = &t->model->bodies[t->island->bodies[0]];
+  bool is_self_damped = !body->is_pinned && self_s > 0 && body->damping.alpha_1_s > 0;
+  return t->tasks && t->island->body_count == 1 && t->island->springs.count == 0 && !is_self_damped &&
+         !sbri_has_impulses(t, body);
+}
+
 /* v += h a(x), then damping. Bodies without pins are damped for the last `self_s` seconds; 0: not in this
  * substep. A shared damping acts in the middle of the drift, where positions and velocities belong to the
  * same time. Before the drift, modes with a phase of a multiple of pi over the shared substeps would gain
- * energy. */
-static inline void sbri_kick(
-    const sbri_island_tick *t, float h, float self_s, bool is_deferred, bool last, float *stretches) {
+ * energy. With `drifts` (sbri_drifts_with_kick), then x += h v as well. */
+static inline void sbri_kick(const sbri_island_tick *t, float h, float self_s, bool is_deferred, bool last,
+    bool drifts, float *stretches) {
   float ahead_s = is_deferred ? 0.5f * h : 0;
   int kind = sbri_force_kind(t, last);
   if (t->scratch.external_forces) sbri_compute_external_forces(t, h);
@@ -131,11 +241,20 @@ static inline void sbri_kick(
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbri_decay decay = sbri_decay_of(body, h);
-#define SBRI_CALL(force_kind) sbri_kick_body(t, body, h, decay, force_kind, stretches, spring_sums)
-    SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
+    if (t->tasks && !t->reactions) {
+      sbri_kick_by_tasks(t, body, h, kind, drifts, stretches);
+    } else {
+#define SBRI_CALL(force_kind)                                                                                \
+  sbri_kick_slots(t, sbri_slots_of(body), h, decay, force_kind, stretches, spring_sums)
+      SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
+    }
     if (!body->is_pinned && self_s > 0 && body->damping.alpha_1_s > 0)
       sbri_self_damp(t, body, self_s, ahead_s);
+  }
+  if (sbri_are_forces_divided(t)) { /* those on pinned points, which nothing reads */
+    sbri_join_forces(t, t->island->free_count, t->island->slot_count);
+    sbri_clear_forces(t, t->island->free_count, t->island->slot_count);
   }
   if (spring_sums) sbri_apply_spring_reactions(t, spring_sums, h);
 }
@@ -177,21 +296,9 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *st
   }
 }
 
-static inline sbri_contact_rule sbri_contact_rule_of(
-    const sbri_island_tick *t, const sbri_body *body, float h) {
-  float slack = body->contact.samples ? SBRI_SLACK_FRACTION * body->rest_size_m : 0;
-  return (sbri_contact_rule){body->contact.friction, body->contact.restitution, body->contact.frictions, h,
-      SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S, t->contacts.pressing};
-}
-
 /* Ground planes of a group of lanes. */
 static inline sbri_contact_planes sbri_planes_of(const sbri_island_tick *t, uint32_t slot) {
   return sbri_planes_load(t->contacts.planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
-}
-
-/* Whether loads or contacts act on the body, which need all its velocities at once. */
-static inline bool sbri_has_impulses(const sbri_island_tick *t, const sbri_body *body) {
-  return sbri_soft_contact_count(t, body) > 0 || sbri_is_loaded(t, body);
 }
 
 /* Applies loads of the host and contact impulses to the velocities of the coming substep. */
@@ -204,30 +311,28 @@ static inline void sbri_apply_impulses(
     sbri_soft_contacts_solve(t, body, velocities, rule);
 }
 
-static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
-  sbri_wide step = sbri_wide_all(h);
-  const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
-  sbri_apply_impulses(t, body, t->velocities, &rule);
-  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
-    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
-    float *velocity = sbri_triple(t->velocities, slot);
-    sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
-    if (t->contacts.near_ground[block]) {
-      sbri_contact_move(&x, &v, t->contacts.planes + 4 * (block * SBRI_BLOCK) + lane, &rule, slot);
-      sbri_store3(velocity, v);
-    } else {
-      x.x = x.x + step * v.x;
-      x.y = x.y + step * v.y;
-      x.z = x.z + step * v.z;
-    }
-    sbri_wide_store_points(t->positions + slot, x);
-  }
+/* A task that moves its slots. */
+typedef struct sbri_drift_work {
+  const sbri_island_tick *tick;
+  const sbri_body *body;
+  float h;
+  uint32_t task_count;
+} sbri_drift_work;
+
+static inline void sbri_drift_task(void *context, uint32_t index) {
+  const sbri_drift_work *w = context;
+  sbri_drift_slots(w->tick, sbri_slots_of_task(w->body, index, w->task_count), w->h);
 }
 
 /* x += h v, above the ground planes. */
 static inline void sbri_drift(const sbri_island_tick *t, float h) {
-  for (uint32_t b = 0; b < t->island->body_count; b++)
-    sbri_drift_body(t, &t->model->bodies[t->island->bodies[b]], h);
+  for (uint32_t b = 0; b < t->island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+    const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
+    sbri_drift_work work = {t, body, h, sbri_count_slot_tasks(t, body)};
+    sbri_apply_impulses(t, body, t->velocities, &rule);
+    sbri_run_tasks(t, sbri_drift_task, &work, work.task_count);
+  }
 }
 
 /* Stores the positions of pinned points at the beginning of the tick. */

@@ -52,10 +52,15 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   uint32_t damp_every = sbri_self_damp_every(t);
   sbri_store_pinned_begin(t);
   sbri_mark_all_compressed(t);
+  sbri_divided_begin(t);
+  bool divided = sbri_are_forces_divided(t);
   for (uint32_t s = 1; left > 0; s++) {
     bool last = left == 1, checks = last || s % SBRI_CHECK_INTERVAL == 0;
     if (sbri_has_damping(island)) sbri_copy_velocities_to_points(t, 1 / t->tick_s);
-    if (solid) sbri_tetrahedron_pass(t, checks);
+    if (divided)
+      sbri_divided_tetrahedron_pass(t, checks);
+    else if (solid)
+      sbri_tetrahedron_pass(t, checks);
     if (checks && !last && may_stiffen) {
       sbri_update_gas_stiffness(t);
       uint32_t needed = sbri_substeps_now(t, rest),
@@ -66,9 +71,10 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
     if (checks && sbri_is_compressed(t)) sbri_keep_marks_if_slow(t, h);
     bool damps = last || s % damp_every == 0;
     self_s += h;
-    sbri_kick(t, h, damps ? self_s : 0, damp_every > 1, last, stretches);
+    bool drifts = sbri_drifts_with_kick(t, damps ? self_s : 0);
+    sbri_kick(t, h, damps ? self_s : 0, damp_every > 1, last, drifts, stretches);
     if (damps) self_s = 0;
-    sbri_drift(t, h);
+    if (!drifts) sbri_drift(t, h);
     rest = (float)--left * h;
     sbri_move_pinned(t, left == 0 ? 1 : 1 - rest / t->tick_s);
     sbri_count_element_visits(t, 1);

@@ -168,16 +168,18 @@ SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_te
 
 /* With eight lanes, the edges of the next block are gathered before the forces of this one are added. A
  * processor looks ahead by only about one block and would stall otherwise. */
-SBRI_INLINE void sbri_tetrahedron_blocks(
-    const sbri_island_tick *t, const float *betas, sbri_tetrahedron_watch *watch, sbri_point *sums) {
+SBRI_INLINE void sbri_tetrahedron_blocks(const sbri_island_tick *t, const float *betas,
+    sbri_tetrahedron_watch *watch, const sbri_force_parts *parts, uint32_t begin, uint32_t end) {
   enum { GROUPS = SBRI_BLOCK / SBRI_LANES };
-  uint32_t count = t->island->tetrahedra.dense_count;
+  sbri_point *sums = t->scratch.element_forces;
   const sbri_tetrahedron_block *blocks = t->solids.blocks;
   const sbri_point *x = t->positions;
   sbri_tetrahedron_edges next = {0};
-  if (GROUPS == 1 && count > 0) next = sbri_tetrahedron_edges_of(x, blocks, 0);
-  for (uint32_t b = 0; b < count; b++) {
+  if (GROUPS == 1 && begin < end) next = sbri_tetrahedron_edges_of(x, blocks + begin, 0);
+  for (uint32_t b = begin; b < end; b++) {
     const sbri_tetrahedron_block *block = &blocks[b];
+    const bool is_shared = parts && parts->rows_of[b] != UINT32_MAX;
+    const uint32_t(*targets)[SBRI_BLOCK] = is_shared ? parts->rows[parts->rows_of[b]].at : block->corners;
     const float *of = betas ? betas + (size_t)b * SBRI_BLOCK : NULL;
     sbri_wide3 forces[GROUPS][4];
     if (watch) watch->is_compressed = false;
@@ -187,10 +189,10 @@ SBRI_INLINE void sbri_tetrahedron_blocks(
       sbri_tetrahedron_lanes(t, block, now.d, group * SBRI_LANES, of, watch, forces[group]);
     }
     if (watch) t->solids.compressed[b] = watch->is_compressed;
-    if (GROUPS == 1) next = sbri_tetrahedron_edges_of(x, block + (b + 1 < count), 0);
+    if (GROUPS == 1) next = sbri_tetrahedron_edges_of(x, block + (b + 1 < end), 0);
 #define SBRI_SCATTER(k)                                                                                      \
   for (uint32_t group = 0; group < GROUPS; group++)                                                          \
-  sbri_wide_scatter_sum(sums, block->corners[k] + group * SBRI_LANES, forces[group][k], (k) == 0)
+  sbri_wide_scatter_sum(sums, targets[k] + group * SBRI_LANES, forces[group][k], (k) == 0)
     SBRI_SCATTER(0);
     SBRI_SCATTER(1);
     SBRI_SCATTER(2);
@@ -199,18 +201,29 @@ SBRI_INLINE void sbri_tetrahedron_blocks(
   }
 }
 
+/* Adds the forces of a range of blocks. Specialised loops, so that the common one does no extra work. */
+static inline void sbri_add_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch,
+    const sbri_force_parts *parts, uint32_t begin, uint32_t end) {
+  const float *betas = t->island->tetrahedra.damping;
+  if (parts && betas)
+    sbri_tetrahedron_blocks(t, betas, watch, parts, begin, end);
+  else if (parts && watch)
+    sbri_tetrahedron_blocks(t, NULL, watch, parts, begin, end);
+  else if (parts)
+    sbri_tetrahedron_blocks(t, NULL, NULL, parts, begin, end);
+  else if (betas)
+    sbri_tetrahedron_blocks(t, betas, watch, NULL, begin, end);
+  else if (watch)
+    sbri_tetrahedron_blocks(t, NULL, watch, NULL, begin, end);
+  else
+    sbri_tetrahedron_blocks(t, NULL, NULL, NULL, begin, end);
+}
+
 /* Writes the forces of the island's tetrahedra to t->element_forces, N. `watch`: NULL, or initialised by
  * sbri_watch_begin; receives the stiffening and the minimum J. */
 static inline void sbri_compute_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
-  sbri_point *sums = t->scratch.element_forces;
-  memset(sums, 0, t->island->slot_count * sizeof *sums);
-  /* Specialised loops, so that the common one does no extra work. */
-  if (t->island->tetrahedra.damping)
-    sbri_tetrahedron_blocks(t, t->island->tetrahedra.damping, watch, sums);
-  else if (watch)
-    sbri_tetrahedron_blocks(t, NULL, watch, sums);
-  else
-    sbri_tetrahedron_blocks(t, NULL, NULL, sums);
+  memset(t->scratch.element_forces, 0, t->island->slot_count * sizeof *t->scratch.element_forces);
+  sbri_add_tetrahedron_forces(t, watch, NULL, 0, t->island->tetrahedra.dense_count);
 }
 
 static inline void sbri_watch_begin(sbri_tetrahedron_watch *watch) {
