@@ -79,7 +79,7 @@ static void print_left_over(const sbf_asset *built) {
     const sbf_level *level = body->levels.count ? &body->levels.at[0] : NULL;
     if (!level || level->model != SBF_ELASTIC_MODEL_SPRINGS || !level->calibration) continue;
     if (!(level->calibration->residual > LEFT_OVER)) continue;
-    printf("  %s: off by %.0f %% of what its matter gives, up to %.2g m\n", body->name,
+    printf("  %s: displacement error of up to %.0f %%, %.2g m\n", body->name,
         100 * (double)level->calibration->residual, (double)level->simulation.error);
   }
 }
@@ -114,7 +114,8 @@ static void print_springs(const sbf_build_report *r) {
   printf("springs: %u structural, %u shear, %u flexion, %u internal", r->springs[SBF_SPRING_KIND_STRUCTURAL],
       r->springs[SBF_SPRING_KIND_SHEAR], r->springs[SBF_SPRING_KIND_FLEXION],
       r->springs[SBF_SPRING_KIND_INTERNAL] + r->inert_springs);
-  if (r->inert_springs) printf(" (%u of them join two pinned points and were left out)", r->inert_springs);
+  if (r->inert_springs)
+    printf(" (%u of them would join two pinned points and were left out)", r->inert_springs);
   printf("\n");
 }
 
@@ -130,19 +131,18 @@ void building_print(const sbf_asset *built, const sbf_build_report *r) {
     printf("%u embedded vertices\n", r->embedded_vertices);
   if (r->tetrahedra) print_lattices(r);
   if (r->calibrated)
-    printf("calibrated %u lattice%s: modulus times %.3g to %.3g, gives within %.3g %% of the reference under "
-           "every load, swings within %.3g %%\n",
+    printf("calibrated %u lattice%s: modulus times %.3g to %.3g, displacement within %.3g %% of the "
+           "reference under every load, frequency within %.3g %%\n",
         r->calibrated, many(r->calibrated), r->min_factor, r->max_factor, 100 * r->max_residual,
         100 * r->max_period_error);
   if (r->calibrated_springs)
     printf("calibrated the springs of %u level%s: stiffness times %.3g to %.3g, surfaces within %.3g %% of "
-           "where "
-           "tetrahedra have them\n",
+           "those of tetrahedra\n",
         r->calibrated_springs, many(r->calibrated_springs), r->min_spring_factor, r->max_spring_factor,
         100 * r->max_spring_residual);
   print_left_over(built);
-  if (r->levels) printf("levels: %u beside the finest\n", r->levels);
-  if (r->render_levels) printf("render levels: %u beside the full meshes\n", r->render_levels);
+  if (r->levels) printf("levels: %u coarser than the finest\n", r->levels);
+  if (r->render_levels) printf("render levels: %u coarser than the full meshes\n", r->render_levels);
   print_springs(r);
   mesh_quality_measure(built, NULL, &quality);
   mesh_quality_print(&quality);
@@ -155,7 +155,7 @@ static void print_choice(const cli_call *call, const section_budget *choice) {
   const double us = SECTION_BUDGET_NS_PER_VISIT / 1e3;
   char off[96] = "", left[320] = "";
   if (choice->p99_fraction >= 0)
-    snprintf(off, sizeof off, "99 of 100 skin vertices within %.2g %% of the size of what %u give, ",
+    snprintf(off, sizeof off, "99 of 100 skin vertices within %.2g %% of the size of the result with %u, ",
         100 * choice->p99_fraction, (unsigned)choice->finest);
   if (choice->left_out)
     snprintf(left, sizeof left, "; rigid to keep the budget: %u of the smallest parts (%s)",
@@ -163,11 +163,11 @@ static void print_choice(const cli_call *call, const section_budget *choice) {
   size_t length = strlen(left);
   if (choice->visits > choice->max_visits)
     snprintf(left + length, sizeof left - length,
-        choice->soft ? "; the parts that you asked for take more: ask for fewer, or --budget none"
-                     : "; skin and gait alone take more");
+        choice->soft ? "; the requested parts cost more: request fewer, or use --budget none"
+                     : "; skin and gait alone cost more");
   else if (choice->exceeds)
     snprintf(left + length, sizeof left - length,
-        "; the skin's vertices alone take %.0f us, so soft parts have a quarter of the budget",
+        "; the skin's vertices alone cost %.0f us, so soft parts have a quarter of the budget",
         us * choice->skin_visits);
   snprintf(diagnostic.message, sizeof diagnostic.message,
       "sections follow lattices of about %u tetrahedra: %s%.0f element visits a tick of at most %.0f (%.0f "

@@ -11,17 +11,17 @@
       "automatic, centroid, lattice, surface (or none), brute: springs; tetrahedra, shape_matching: no "     \
       "springs (automatic)"},                                                                                \
       {"--cell", "METRES", "edge of a lattice's cubes (by --elements)"},                                     \
-      {"--elements", "N", "about so many tetrahedra a body (2000, thin ones up to 16000)"},                  \
+      {"--elements", "N", "approximate number of tetrahedra in a body (2000, thin ones up to 16000)"},       \
       {"--error", "METRES",                                                                                  \
-          "the coarsest lattice that gives so nearly as a fine one does; takes tetrahedra"},                 \
-      {"--levels", "N", "levels a body, finest first: coarser lattices, springs, jiggle (1)"},               \
-      {"--render-levels", "N", "coarser levels of render meshes, each of half the triangles (none)"},        \
-      {"--render-error", "METRES", "no render level farther off than this; alone: as many as that allows"},  \
-      {"--no-calibration", NULL, "leave moduli of coarse lattices and springs as they are"},                 \
+          "use the coarsest lattice with at most this displacement error; needs tetrahedra"},                \
+      {"--levels", "N", "levels per body, finest first: coarser lattices, springs, jiggle (1)"},             \
+      {"--render-levels", "N", "coarser levels of render meshes, each with half the triangles (none)"},      \
+      {"--render-error", "METRES", "maximum error of a render level; alone: as many levels as it allows"},   \
+      {"--no-calibration", NULL, "do not calibrate the moduli of coarse lattices and springs"},              \
       {"--sections", "auto|none",                                                                            \
-          "cut skinned meshes into sections, where no bodies lie along the skin (auto)"},                    \
+          "cut skinned meshes into sections unless the file has bodies along the skin (auto)"},              \
   {                                                                                                          \
-    "--overlap", "METRES", "how far sections reach over a cut (half the limb's radius there)"                \
+    "--overlap", "METRES", "overlap of sections at a cut (half the limb's radius there)"                     \
   }
 
 /* Checks the options; false, with a message, if they are wrong. */

@@ -112,7 +112,7 @@ int chart_maps_run(cli_call *call) {
     if (cli_switch(call, "--jobs"))
       result = print_jobs(call, &w, path);
     else
-      result = path ? fill(call, &w, path) : cli_wrong(call, "say where to: -o DIR");
+      result = path ? fill(call, &w, path) : cli_wrong(call, "state the output folder: -o DIR");
   }
   free(w.numbers);
   return result;

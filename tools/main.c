@@ -82,7 +82,7 @@ static bool parse(cli_call *call, int count, char **arguments) {
     const char *argument = arguments[i], *value;
     bool is_option = !options_over && argument[0] == '-' && argument[1];
     if (strcmp(argument, "-") == 0) {
-      cli_wrong(call, "standard input is not read: give the name of a file, not '-'");
+      cli_wrong(call, "standard input is not supported: use the name of a file instead of '-'");
       return false;
     }
     if (!is_option) {
@@ -112,7 +112,8 @@ static bool parse(cli_call *call, int count, char **arguments) {
     }
     if (!value) value = arguments[++i];
     if (call->values[index] && strcmp(verb->options[index].name, "-o") == 0) {
-      cli_wrong(call, "-o is given twice, as '%s' and '%s': one call writes one", call->values[index], value);
+      cli_wrong(
+          call, "-o is given twice, as '%s' and '%s': a call writes one file", call->values[index], value);
       return false;
     }
     call->values[index] = value;
@@ -120,8 +121,8 @@ static bool parse(cli_call *call, int count, char **arguments) {
   }
   bool too_many = verb->max_inputs >= 0 && call->input_count > verb->max_inputs;
   if (too_many) {
-    cli_wrong(call, "'%s' is one input too many; usage: sbfmt %s %s", call->inputs[verb->max_inputs],
-        verb->name, verb->synopsis);
+    cli_wrong(call, "unexpected input '%s'; usage: sbfmt %s %s", call->inputs[verb->max_inputs], verb->name,
+        verb->synopsis);
     return false;
   }
   if (call->input_count < verb->min_inputs) {

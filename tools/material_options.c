@@ -111,8 +111,8 @@ bool materials_apply(const cli_call *call, sbf_asset *asset) {
     uint32_t found = apply_to_bodies(asset, bodies, name, length, preset);
     if (cut && !(name && found)) found += apply_to_sections(asset, recipes, name, length, preset);
     if (name && !found) {
-      cli_wrong(call, "no soft body %s'%.*s' to be made of %s", cut ? "or bone " : "", (int)length, name,
-          preset->name);
+      cli_wrong(call, "no soft body%s has the name '%.*s', which should have the material %s",
+          cut ? " or bone" : "", (int)length, name, preset->name);
       return false;
     }
   }

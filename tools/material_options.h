@@ -9,8 +9,8 @@
 #define MATERIALS_OPTION                                                                                     \
   {                                                                                                          \
     "--material", "[BODY=]NAME",                                                                             \
-        "what bodies are made of, all or the one of that name or id, of a skin the section of that bone; "   \
-        "may be given again: cotton, denim, fat, flesh, jelly, leather, muscle, rubber, silk"                \
+        "material of all bodies, or of the body with that name or id, or of the section of that bone; "      \
+        "repeatable: cotton, denim, fat, flesh, jelly, leather, muscle, rubber, silk"                        \
   }
 
 /* False, with a message, if a material does not exist. */

@@ -24,9 +24,8 @@ static void print_left_out(const cli_call *call, const char *path, const sbf_ass
       .offset = -1,
       .index = -1};
   snprintf(left.message, sizeof left.message,
-      "%s: a point cache has places of vertices alone. polygons of render meshes (export an .obj for them): "
-      "%u, bones: %u, soft "
-      "bodies: %u, rigid bodies: %u, materials: %u",
+      "%s: a point cache has only positions of vertices. Left out: polygons of render meshes (export an .obj "
+      "for them): %u, bones: %u, soft bodies: %u, rigid bodies: %u, materials: %u",
       path, (unsigned)asset->render_meshes.count, (unsigned)asset->bones.count,
       (unsigned)asset->soft_bodies.count, (unsigned)asset->rigid_bodies.count,
       (unsigned)asset->materials.count);

@@ -16,7 +16,7 @@ bool output_name_check(const cli_call *call, const char *option, const char *con
   size_t at = 0;
   bool exists = path && stat(path, &facts) == 0;
   if (exists && S_ISDIR(facts.st_mode)) {
-    cli_wrong(call, "%s %s: that is a folder; name a file in it, as out%s", option, path, endings[0]);
+    cli_wrong(call, "%s %s is a folder; name a file in it, for example out%s", option, path, endings[0]);
     return false;
   }
   if (!path || (exists && !S_ISREG(facts.st_mode))) return true;

@@ -13,7 +13,7 @@ static bool read_goal(const cli_call *call, sbf_convert_options *options) {
     options->goal_maximum = max;
     return true;
   }
-  cli_wrong(call, "--goal takes two numbers from 0 to 1, as 0.2,0.7, not '%s'", text);
+  cli_wrong(call, "--goal takes two numbers from 0 to 1, for example 0.2,0.7, not '%s'", text);
   return false;
 }
 
@@ -50,7 +50,9 @@ static bool read_attachments(const cli_call *call, pin_options *pins, sbf_conver
   for (uint32_t i = 0; good && pins->attachments && i < options->attachment_count; i++) {
     pins->attachments[i] = (sbf_convert_attachment){pairs[i].group, pairs[i].bone};
     if (pairs[i].bone && pairs[i].bone[0]) continue;
-    cli_wrong(call, "--attach takes a soft body and what holds it, as --attach belly=ribs, not '%s'",
+    cli_wrong(call,
+        "--attach takes a soft body and the object or bone to attach it to, for example --attach belly=ribs, "
+        "not '%s'",
         pairs[i].group);
     good = false;
   }
@@ -65,7 +67,8 @@ static bool read_shells(const cli_call *call, pin_options *pins, sbf_convert_opt
   options->shells = pins->shells;
   for (uint32_t i = 0; i < options->shell_count; i++) {
     if (pins->shells[i].bone && pins->shells[i].bone[0]) continue;
-    cli_wrong(call, "--shell takes an object and the bone that moves it, as --shell hat=head, not '%s'",
+    cli_wrong(call,
+        "--shell takes an object and the bone that moves it, for example --shell hat=head, not '%s'",
         pins->shells[i].group);
     return false;
   }

@@ -8,24 +8,22 @@
 
 #define PIN_OPTIONS                                                                                          \
   {"--pin", "GROUP[=BONE]",                                                                                  \
-      "pin what a vertex group or a bone's weights name to a bone (that of its name, else the world); may "  \
-      "be "                                                                                                  \
-      "given again"},                                                                                        \
+      "pin a vertex group, or points with weights on a bone, to a bone (the one of that name, else the "     \
+      "world); repeatable"},                                                                                 \
       {"--hold", "GROUP[=BONE]",                                                                             \
-          "hold what a vertex group or a bone's weights name in the sections that a skin is cut into, by "   \
-          "the "                                                                                             \
-          "section's bone or that one; may be given again"},                                                 \
+          "pin a vertex group, or points with weights on a bone, in the sections cut from a skin, to the "   \
+          "section's bone or the named one; repeatable"},                                                    \
       {"--attach", "BODY=HULL",                                                                              \
-          "let everything of a soft body inside the hull of another object, or of a bone's rigid body, be "  \
-          "held by "                                                                                         \
-          "it; that object is then a rigid body and no longer drawn; may be given again"},                   \
+          "attach the points of a soft body inside the hull of another object, or of a bone's rigid body, "  \
+          "to it; that object becomes a rigid body and is no longer drawn; repeatable"},                     \
       {"--shell", "OBJECT[#N]=BONE",                                                                         \
-          "let one bone of the rig move an object, or its shell number N; may be given again"},              \
-      {"--soft", "BONE,...", "let what these bones hold of a skin be soft; '*': all; may be given again"},   \
-      {"--rigid", "BONE,...", "let what these bones hold move with them; '*': all; may be given again"},     \
-      {"--firmness", "X", "factor on the modulus of what becomes soft by itself (1)"},                       \
+          "move an object, or its shell number N, with one bone of the rig; repeatable"},                    \
+      {"--soft", "BONE,...", "make the parts of the skin on these bones soft; '*': all; repeatable"},        \
+      {"--rigid", "BONE,...",                                                                                \
+          "let the parts of the skin on these bones move rigidly with them; '*': all; repeatable"},          \
+      {"--firmness", "X", "factor on the modulus of parts that are made soft automatically (1)"},            \
       {"--goal", "MIN,MAX", "bounds of pin weights; below 1 a pin is a goal spring (0,1)"}, {                \
-    "--goal-stiffness", "N/M", "of a goal spring at weight 1 (by the body's modulus)"                        \
+    "--goal-stiffness", "N/M", "stiffness of a goal spring at weight 1 (from the body's modulus)"            \
   }
 
 typedef struct pin_options {

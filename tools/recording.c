@@ -41,16 +41,16 @@ static int open_replay(recording *r, const cli_call *call, sbr_world *world) {
   if (status != SBF_OK) cli_print_diagnostic(call, &error);
   if (status != SBF_OK || !r->replay.differs) return (int)status;
   cli_wrong(
-      call, "%s begins in another state: give the file and the options that it was recorded with", r->path);
+      call, "%s begins in another state: use the file and the options with which it was recorded", r->path);
   return SBF_BAD_INPUT;
 }
 
 int recording_open(recording *r, const cli_call *call, sbr_world *world) {
   const char *record = cli_value(call, "--record"), *replay = cli_value(call, "--replay");
   *r = (recording){.path = record ? record : replay};
-  if (record && replay) return cli_wrong(call, "--record and --replay are not for one run");
+  if (record && replay) return cli_wrong(call, "--record and --replay cannot be combined");
   if (replay && (cli_value(call, "--drive") || cli_value(call, "--script")))
-    return cli_wrong(call, "a recording says what the character does: leave --drive and --script out");
+    return cli_wrong(call, "a recording has all input of the character: leave out --drive and --script");
   if (replay) return open_replay(r, call, world);
   if (!record) return SBF_OK;
   if (!(r->file = fopen(record, "wb")))

@@ -80,14 +80,13 @@ void recovery_report_warn(const recovery_report *r, const sbf_asset *asset) {
     const char *name = asset->soft_bodies.at[i].name;
     if (count->rigid > 0)
       fprintf(stderr,
-          "sbfmt run: warning: soft body \"%s\" was put back into its rest shape %u times and moved as a "
-          "rigid body in %u frames: look for slivers with `sbfmt validate`, or take more substeps\n",
+          "sbfmt run: warning: soft body \"%s\" was reset to its rest shape %u times and moved as a rigid "
+          "body in %u frames: look for slivers with `sbfmt validate`, or use more substeps\n",
           name, count->total, count->rigid);
     if (count->crushed_row >= CRUSHED_FRAMES)
       fprintf(stderr,
           "sbfmt run: warning: soft body \"%s\" ends crushed: an element had less than %g of its volume in "
-          "the "
-          "last %u frames: let what holds it move more slowly, or take a stiffer material\n",
+          "the last %u frames: move its bones more slowly, or use a stiffer material\n",
           name, (double)CRUSHED_RATIO, count->crushed_row);
   }
 }

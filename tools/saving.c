@@ -50,8 +50,9 @@ int saving_run(const cli_call *call, const char *from, const char *out, const sb
     unsigned errors = found.result.errors;
     if (status == SBF_OK) status = SBF_BAD_INPUT;
     checked_report(call, &found, NULL);
-    cli_wrong(call, "%s is not written: what %s gives has %u error%s, listed above; repair the input there",
-        out, from, errors, errors == 1 ? "" : "s");
+    cli_wrong(call,
+        "%s was not written: the result for %s has %u error%s, listed above; repair the input there", out,
+        from, errors, errors == 1 ? "" : "s");
   }
   findings_free(&found.found);
   return (int)status;

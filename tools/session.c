@@ -50,8 +50,8 @@ static bool parse_drive(cli_call *call, double drive[3]) {
   if (!text || parse_numbers(text, 2, drive)) return true;
   if (parse_numbers(text, 3, drive)) return true;
   cli_wrong(call,
-      "--drive takes a speed and a turn, and for what swims or flies a vertical speed, as M/S,RAD/S[,UP], as "
-      "in 0.5,0.2, not '%s'",
+      "--drive takes a speed, a turn rate and for swimmers and fliers a vertical speed, as M/S,RAD/S[,UP], "
+      "for example 0.5,0.2, not '%s'",
       text);
   return false;
 }
@@ -94,7 +94,7 @@ static bool choose_clip(session *s, const cli_call *call, int32_t *clip) {
   *clip = find_clip(s->asset, text);
   if (*clip == SBF_NONE) {
     cli_wrong(call,
-        s->asset->clips.count ? "no clip '%s' in the file, of its %u the first is '%s'"
+        s->asset->clips.count ? "no clip '%s' in the file; the first of its %u clips is '%s'"
                               : "no clip '%s': the file has none",
         text, (unsigned)s->asset->clips.count, s->asset->clips.count ? s->asset->clips.at[0].name : "");
     return false;
@@ -143,7 +143,7 @@ static sbf_status create_character(session *s, sbf_diagnostic *error) {
 
 static bool has_rigid_parts(const session *s, const cli_call *call) {
   if (!(s->settings.ragdoll || s->settings.driven) || s->asset->rigid_bodies.count) return true;
-  cli_wrong(call, "the file has no rigid bodies, which --ragdoll and --strength are for");
+  cli_wrong(call, "the file has no rigid bodies, which --ragdoll and --strength need");
   return false;
 }
 
@@ -170,7 +170,7 @@ static void warn_of_drive(const session *s, const cli_call *call) {
       (gait && (gait->kind == SBF_GAIT_KIND_SWIM || gait->kind == SBF_GAIT_KIND_FLY)))
     return;
   fprintf(stderr,
-      "sbfmt %s: warning: the vertical speed of %s is ignored: only what swims or flies has one, and this "
+      "sbfmt %s: warning: the vertical speed of %s is ignored: only swimmers and fliers have one, and this "
       "character has %s%s\n",
       call->verb->name, option ? "--drive" : "--script", gait ? "the gait " : "no gait",
       gait ? sbf_gait_kind_name(gait->kind) : "");
@@ -214,7 +214,7 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
   if (commands && !script_load(&s->script, call, commands, status)) return false;
   s->threads = thread_pool_create((uint32_t)s->settings.threads);
   if (!s->threads) {
-    cli_wrong(call, "the threads cannot be made: ask for fewer");
+    cli_wrong(call, "the threads cannot be created: use fewer");
     session_close(s);
     return false;
   }

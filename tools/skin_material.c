@@ -27,7 +27,7 @@ static uint8_t *read_whole(const char *path, size_t *size, char why[DRAW_IMAGE_W
   if (stat(path, &about) != 0 || (S_ISREG(about.st_mode) && !(file = fopen(path, "rb"))))
     snprintf(why, DRAW_IMAGE_WHY, "its file cannot be read: %s", strerror(errno));
   else if (!file || about.st_size <= 0 || (size_t)about.st_size > LARGEST_FILE)
-    snprintf(why, DRAW_IMAGE_WHY, "its file is empty, no plain file, or larger than 256 MiB");
+    snprintf(why, DRAW_IMAGE_WHY, "its file is empty, not a regular file, or larger than 256 MiB");
   else if (!(bytes = malloc((size_t)about.st_size)))
     snprintf(why, DRAW_IMAGE_WHY, "memory ran out");
   else
@@ -70,7 +70,7 @@ static draw_image *load_one(const sbf_texture *texture, const char *file, skin_i
   sbf_diagnostic reported = {
       .code = SBF_CODE_IMAGE_NOT_DRAWN, .severity = SBF_SEVERITY_WARNING, .offset = -1, .index = -1};
   snprintf(reported.message, sizeof reported.message,
-      "the image '%.100s' is not drawn, its material's colour stands for it: %s", name, why);
+      "the image '%.100s' is not drawn and its material's colour is used instead: %s", name, why);
   note(user, &reported);
   return NULL;
 }

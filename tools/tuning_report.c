@@ -28,18 +28,19 @@ void tuning_describe_unmet(const tuning *t, char text[TUNING_TEXT]) {
   format_length(t, error, is, sizeof is);
   if (t->verdict == TUNE_TOO_FINE)
     snprintf(text, TUNING_TEXT,
-        "nothing that was tried keeps within %s: the nearest is off by %s (%s), %.2g m of it the reference's "
-        "own: ask for %.3g m or more, or try finer lattices with --elements and --reference",
+        "nothing that was tried has an error within %s: the most accurate has %s (%s), of which %.2g m is "
+        "the error of the reference: allow %.3g m or more, or try finer lattices with --elements and "
+        "--reference",
         asked, is, how, tune_distance_by(&t->yard.own, t->by), error * 1.01);
   else if (t->verdict == TUNE_TOO_CHEAP)
     snprintf(text, TUNING_TEXT,
-        "nothing that was tried takes less than %.4g us a tick here: the cheapest takes %.4g us (%s; off by "
-        "%s): give it more, or try coarser lattices with --elements",
+        "nothing that was tried takes less than %.4g us a tick on this machine: the cheapest takes %.4g us "
+        "(%s; error %s): allow more, or try coarser lattices with --elements",
         t->goal.budget_us, near->us.median, how, is);
   else
     snprintf(text, TUNING_TEXT,
-        "what keeps within %s takes %.4g us a tick here at least (%s), more than %.4g: allow either to be "
-        "more",
+        "the cheapest with an error within %s takes %.4g us a tick on this machine (%s), more than %.4g: "
+        "allow a larger error or more time",
         asked, near->us.median, how, t->goal.budget_us);
 }
 
@@ -50,16 +51,15 @@ static void print_level(const tuning *t, uint32_t number) {
   char how[128];
   describe_method(t, trial, how, sizeof how);
   const tune_distances *of = &trial->promised;
-  printf("  level %u: %s: off by %.2e m (RMS), %.2e m (99 of 100 vertices), %.2e m at most; %.0f visits, "
-         "%.4g us a "
-         "tick\n",
+  printf("  level %u: %s: error %.2e m (RMS), %.2e m (99 of 100 vertices), %.2e m at most; %.0f visits, %.4g "
+         "us a tick\n",
       (unsigned)number, how, of->rms_m, of->p99_m, of->max_m, trial->visits, trial->us.median);
 }
 
 static void print_harsher(const tuning *t) {
   const tune_error *v = &t->levels[0].trial->other;
-  printf("driven harder its first level is off by %.2e m (RMS), %.2e m (99 of 100 vertices), %.2e m at most "
-         "(%s)\n",
+  printf("with harsher commands, its first level has an error of %.2e m (RMS), %.2e m (99 of 100 vertices), "
+         "%.2e m at most (%s)\n",
       v->off.rms_m, v->off.p99_m, v->off.max_m, v->worst ? v->worst : "nothing measured");
 }
 
@@ -77,10 +77,10 @@ void tuning_print(const tuning *t) {
     refused += trial->refused, dearer += trial->dearer;
   }
   if (t->meshes.nothing_is_soft) {
-    printf("nothing here is soft: the skin follows its bones exactly\nwrote %s as it was\n", t->out);
+    printf("nothing is soft: the skin follows its bones exactly\nwrote %s unchanged\n", t->out);
     return;
   }
-  printf("tried %u ways, of which %u failed and %u were refused; %u are worth having",
+  printf("tried %u settings, of which %u failed and %u were refused; %u are on the front of cost and error",
       (unsigned)(t->trials.count - dearer), (unsigned)failed, (unsigned)refused,
       (unsigned)t->trials.front_count);
   if (dearer) printf("; %u that cost more were not tried", (unsigned)dearer);

@@ -6,7 +6,7 @@
 
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o");
-  if (!out) return cli_wrong(call, "say where to write: -o FILE");
+  if (!out) return cli_wrong(call, "state the output: -o FILE");
   if (!output_name_of_bundle(call, "-o") || !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   sbf_asset *asset;
@@ -30,7 +30,7 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
+    {"-o", "OUT.sbf[z]", "output file; the ending selects XML or packed"},
     BUILDING_OPTIONS,
     MATERIALS_OPTION,
     {NULL, NULL, NULL},

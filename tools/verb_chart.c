@@ -87,7 +87,8 @@ static bool parse(cli_call *call, request *r) {
       !cli_integer(call, "--most-substeps", 1, 1024, &max) || !cli_integer(call, "--core", 0, 1023, &core) ||
       !cli_number(call, "--distance", 0.01, 1e6, &r->effort.distance_m))
     return false;
-  if (!r->path && !cli_switch(call, "--jobs")) return cli_wrong(call, "say where to: -o DIR"), false;
+  if (!r->path && !cli_switch(call, "--jobs"))
+    return cli_wrong(call, "state the output folder: -o DIR"), false;
   r->effort = (chart_effort){.rounds = (uint32_t)rounds,
       .distance_m = r->effort.distance_m,
       .max_substeps = (uint32_t)max,
@@ -97,7 +98,7 @@ static bool parse(cli_call *call, request *r) {
   if (cli_switch(call, "--jobs")) return true;
   r->on_one_core = chart_stay_on_core((uint32_t)core);
   if (!r->on_one_core && cli_value(call, "--core"))
-    return cli_wrong(call, "this process cannot be kept on core %ld: ask for a lower one", core), false;
+    return cli_wrong(call, "this process cannot run on core %ld: use a lower number", core), false;
   return true;
 }
 
@@ -240,7 +241,7 @@ static int redraw(cli_call *call, request *r) {
   const char *table;
   int at = 0;
   r->path = cli_value(call, "-o");
-  if (!r->path) return cli_wrong(call, "say where to: -o DIR");
+  if (!r->path) return cli_wrong(call, "state the output folder: -o DIR");
   if (call->json || cli_switch(call, "--no-svg") || cli_switch(call, "--jobs") || cli_value(call, "--case"))
     return cli_wrong(
         call, "--redraw draws all of each table and measures nothing: it goes with FILE and -o alone");

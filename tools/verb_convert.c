@@ -92,7 +92,8 @@ static bool read_budget(const cli_call *call, const char *input, double *budget_
   if (!value || strcmp(value, "none") == 0) return true;
   for (size_t i = 0; i < sizeof chosen / sizeof *chosen; i++)
     if (cli_value(call, chosen[i]))
-      return cli_wrong(call, "--budget chooses the sections' elements: leave out %s, or --budget", chosen[i]),
+      return cli_wrong(
+                 call, "--budget chooses the elements of the sections: leave out %s or --budget", chosen[i]),
              false;
   return cli_number(call, "--budget", MIN_BUDGET_US, MAX_BUDGET_US, budget_us);
 }
@@ -180,7 +181,8 @@ static bool fits_bundles(const cli_call *call) {
     for (size_t k = 0; is_bundle(call->inputs[i]) && k < sizeof of_sources / sizeof *of_sources; k++)
       if (cli_value(call, of_sources[k]))
         return cli_wrong(call,
-                   "%s is a bundle, which %s does not change: give it with the source, or leave it out",
+                   "%s is a bundle, which %s does not change: use it when converting the source, or leave it "
+                   "out",
                    call->inputs[i], of_sources[k]),
                false;
   return true;
@@ -197,7 +199,7 @@ static int run(cli_call *call) {
   pin_options pins;
   sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
   if (!out == !folder)
-    return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
+    return cli_wrong(call, "state the output: -o FILE for one input, --out-dir DIR for several");
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
   if (!output_name_of_bundle(call, "-o") || !fits_bundles(call) ||
       !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) || !cli_word(call, "--up", axes, 2, &up) ||
@@ -214,7 +216,7 @@ static int run(cli_call *call) {
   const char *page = cli_value(call, "--report");
   if (page && call->input_count > 1) return cli_wrong(call, "--report takes one input");
   if (page && !conversion_report_knows(page))
-    return cli_wrong(call, "a report is a page or an object: --report OUT.html or OUT.json, not '%s'", page);
+    return cli_wrong(call, "--report needs a name that ends in .html or .json, not '%s'", page);
   call->messages = page ? json_array() : NULL;
   if (pin_options_read(call, &pins, &options)) status = convert_all(call, &options);
   pin_options_free(&pins);
@@ -224,43 +226,37 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
-    {"--out-dir", "DIR", "write each input there, under its own name; made if it is not there"},
-    {"--jobs", "N", "conversions at once with --out-dir (one a processor)"},
+    {"-o", "OUT.sbf[z]", "output file; the ending selects XML or packed"},
+    {"--out-dir", "DIR", "write each input to this folder, under its own name; created if missing"},
+    {"--jobs", "N", "parallel conversions with --out-dir (one per processor)"},
     {"--rig", "FILE", "take the skeleton from this file"},
-    {"--forward", "x|-x|y|-y|z|-z", "the input's axis that it looks along (found by its legs)"},
+    {"--forward", "x|-x|y|-y|z|-z", "axis of the input that the character faces (found by its legs)"},
     {"--gait", "walk|swim|fly|slither|crawl|roll|none",
-        "how it moves (judged by its shape, names and clips)"},
+        "way of moving (derived from its shape, names and clips)"},
     {"--weights", "FILE|named|match|transfer|compute",
-        "bones of points: of .csv or .json, by objects' names, by place, of the nearest surface, from the "
-        "bones "
-        "alone (the first that fits)"},
-    {"--motion", "FILE", "carry its clips over to the skeleton; several allowed"},
-    {"--unit", "METRES", "metres in a unit of the input (what the file says, else 1)"},
-    {"--up", "y|z", "the input's upward axis (what the file says, else y)"},
+        "source of skin weights: a .csv or .json file, objects' names, equal positions, the nearest surface, "
+        "or the bones alone (the first that fits)"},
+    {"--motion", "FILE", "transfer its clips to the skeleton; repeatable"},
+    {"--unit", "METRES", "metres per unit of the input (as the file states, else 1)"},
+    {"--up", "y|z", "upward axis of the input (as the file states, else y)"},
     PIN_OPTIONS,
     {"--report", "OUT.html|json",
-        "tell what came in, what was mended and guessed, how good the elements are"},
+        "write a report: content of the input, repairs, guesses, quality of the elements"},
     {"--limits", "none|human|quadruped|reptile",
-        "propose joint limits by the bones' names and places (none)"},
-    {"--no-build", NULL, "leave the derived parts to `sbfmt build`"},
+        "propose joint limits from the names and positions of bones (none)"},
+    {"--no-build", NULL, "do not build derived parts; `sbfmt build` can do it later"},
     {"--budget", "MICROSECONDS|none",
-        "what a tick may cost with skin, at 6 ns an element visit: the cheapest sections whose skin stays "
-        "within 1 % of the finest, else fewer soft parts; none: 160 elements a section, whatever they cost "
-        "(100)"},
+        "cost limit of a tick with skin, at 6 ns per element visit: the cheapest sections with the skin "
+        "within 1 % of the finest, else fewer soft parts; none: 160 elements per section at any cost (100)"},
     BUILDING_OPTIONS,
     MATERIALS_OPTION,
     {NULL, NULL, NULL},
 };
 const cli_verb verb_convert = {"convert", "INPUT... (-o OUT.sbf[z] | --out-dir DIR) [--rig FILE] ...",
-    "make a bundle of a mesh and a rig",
-    "Reads OBJ, FBX, glTF, Collada and what else assimp knows; tetrahedra of TetGen, Gmsh, VTK and PhysX; "
-    "and\n"
-    "the 2012 dialect, .xml; a bundle, to add motion to. Objects become sections of the bones they "
-    "hang on in\n"
-    "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed by its shape, names and clips. "
-    "Then "
-    "builds. What `sbfmt validate` would refuse is not written: its findings are listed, and the exit status "
-    "is "
-    "1.",
+    "make a bundle from a mesh and a rig",
+    "Reads OBJ, FBX, glTF, Collada and other formats of assimp; tetrahedra of TetGen, Gmsh, VTK and PhysX; "
+    "the\n2012 dialect, .xml; and a bundle, to add motion. Objects become sections of their parent bones in "
+    "the node tree\nof the rig. A skinned mesh becomes the skin. A gait is proposed from shape, names and "
+    "clips. Then builds the\nderived parts. A result that `sbfmt validate` would refuse is not written: its "
+    "findings are listed, and the exit\nstatus is 1.",
     options, 1, -1, run};

@@ -39,9 +39,8 @@ static int run(cli_call *call) {
   long render_level = 0;
   sbf_export_motion motion = {0};
   if (!out)
-    return cli_wrong(call,
-        "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf, OUT.usda, OUT.xml, OUT.csv "
-        "or OUT.pc2");
+    return cli_wrong(call, "state the output: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf, OUT.usda, "
+                           "OUT.xml, OUT.csv or OUT.pc2");
   static const char *const endings[] = {".glb", ".html", ".obj", ".tet", ".node", ".ele", ".msh", ".vtu",
       ".mjcf", ".usda", ".xml", ".csv", ".json", ".pc2", ".mdd", NULL};
   if (!output_name_check(call, "-o", endings) || !cli_integer(call, "--render-level", 0, 1000, &render_level))
@@ -49,10 +48,10 @@ static int run(cli_call *call) {
   bool as_cache = motion_cache_named(out), moves = motion_asked(call) || as_cache;
   const char *of_motion = given_of_motion(call);
   if (of_motion && !as_cache && !ends_with(out, ".glb"))
-    return cli_wrong(call, "only .glb, .pc2 and .mdd hold a motion: leave %s out for %s", of_motion, out);
+    return cli_wrong(call, "only .glb, .pc2 and .mdd contain a motion: leave out %s for %s", of_motion, out);
   if (of_motion && !moves)
-    return cli_wrong(
-        call, "%s is for a motion, which %s holds with --seconds, --script or --replay only", of_motion, out);
+    return cli_wrong(call, "%s is for a motion, which %s contains only with --seconds, --script or --replay",
+        of_motion, out);
   int status = moves ? motion_bake(call, &motion) : SBF_OK;
   if (status != SBF_OK) return status;
   sbf_asset *asset;

@@ -7,7 +7,7 @@
 /* Loads the call's input and saves it under a name whose extension selects the form. */
 static int transcode(cli_call *call, const char *const *endings, const sbf_save_options *options) {
   const char *out = cli_value(call, "-o");
-  if (!out) return cli_wrong(call, "say where to write: -o FILE%s", endings[0]);
+  if (!out) return cli_wrong(call, "state the output: -o FILE%s", endings[0]);
   if (!output_name_check(call, "-o", endings)) return SBF_FAILED;
   sbf_asset *asset;
   sbf_diagnostic error;

@@ -24,7 +24,7 @@ static bool parse_output(cli_call *call, output *kind) {
       *kind = (output)i;
       return true;
     }
-  cli_wrong(call, "say where to draw: -o OUT.png, OUT.gif, OUT.mp4 or OUT.webp");
+  cli_wrong(call, "state the output: -o OUT.png, OUT.gif, OUT.mp4 or OUT.webp");
   return false;
 }
 
@@ -34,7 +34,8 @@ static bool parse_own(
   long value = 0;
   if (!cli_value(call, option)) return true;
   if (shot->kind != kind)
-    return cli_wrong(call, "%s is of a %s: leave it out", option, kind == OUTPUT_GIF ? "GIF" : "WebP"), false;
+    return cli_wrong(call, "%s is for a %s: leave it out", option, kind == OUTPUT_GIF ? "GIF" : "WebP"),
+           false;
   if (!cli_integer(call, option, min, max, &value)) return false;
   *to = (unsigned)value;
   return true;

@@ -109,7 +109,7 @@ static bool open_outputs(run_state *r, cli_call *call) {
   if (!cli_word(call, "--of", sources, 2, &of)) return false;
   const char *cache = cli_value(call, "--cache"), *poses = cli_value(call, "--pose");
   if (cli_value(call, "--of") && !cache)
-    return cli_wrong(call, "--of chooses what a point cache holds: say where to, --cache OUT.pc2"), false;
+    return cli_wrong(call, "--of selects the content of a point cache: add --cache OUT.pc2"), false;
   r->cache_of_surface = of == 1;
   uint32_t points = of ? r->surface_count : r->skin_count;
   bool results = cache && result_cache_named(cache);
@@ -219,7 +219,7 @@ static bool play(run_state *r, cli_call *call) {
 /* Exit status of a replay. */
 static int check_replay(const recording *r, const cli_call *call) {
   if (!r->replay.differs) return SBF_OK;
-  cli_wrong(call, "the motion is not the one that was recorded, at tick %llu at the latest",
+  cli_wrong(call, "the motion differs from the recorded one, at tick %llu or before",
       (unsigned long long)r->replay.differs_at_tick);
   return SBF_BAD_INPUT;
 }

@@ -44,9 +44,8 @@ static bool read_error(const cli_call *call, tuning *t) {
   bool percent = end != text && strcmp(end, "%") == 0;
   if (end == text || (*end && !percent) || !(value >= 0 && value <= (percent ? 100 : 1e6)))
     return cli_wrong(call,
-               "--error takes metres or a percentage of the size, as 0.01 or 1%%, not '%s'; 0 is the nearest "
-               "of "
-               "all",
+               "--error takes metres or a percentage of the size, for example 0.01 or 1%%, not '%s'; 0 "
+               "selects the most accurate",
                text),
            false;
   *(percent ? &t->error_percent : &t->goal.error_m) = value;
@@ -62,7 +61,7 @@ static bool read_sizes(const cli_call *call, tune_grid *grid) {
     if (end == text || *end || size < 1 || size > 100000)
       return cli_wrong(call, "--elements takes a whole number from 1 to 100000, not '%s'", text), false;
     if (grid->size_count == TUNE_MAX_SIZES)
-      return cli_wrong(call, "--elements may be given %d times, no more", (int)TUNE_MAX_SIZES), false;
+      return cli_wrong(call, "--elements may be repeated at most %d times", (int)TUNE_MAX_SIZES), false;
     grid->sizes[grid->size_count++] = (uint32_t)size;
   }
   return true;
@@ -74,7 +73,7 @@ static bool parse(cli_call *call, tuning *t, request *r) {
   bool quick = cli_switch(call, "--quick");
   t->path = call->inputs[0];
   t->out = cli_value(call, "-o");
-  if (!t->out) return cli_wrong(call, "say where to write: -o FILE"), false;
+  if (!t->out) return cli_wrong(call, "state the output: -o FILE"), false;
   if (!output_name_of_bundle(call, "-o") || !read_error(call, t) ||
       !cli_number(call, "--budget", 1e-3, 1e9, &t->goal.budget_us) ||
       !cli_word(call, "--measure", tune_by_names, TUNE_BY_COUNT, &measure) ||
@@ -92,7 +91,7 @@ static bool parse(cli_call *call, tuning *t, request *r) {
       (tune_effort){.own_scheme_alone = quick, .by = t->by, .rounds = (uint32_t)rounds, .progress = show};
   r->on_one_core = chart_stay_on_core((uint32_t)core);
   if (!r->on_one_core && cli_value(call, "--core"))
-    return cli_wrong(call, "this process cannot be kept on core %ld: ask for a lower one", core), false;
+    return cli_wrong(call, "this process cannot run on core %ld: use a lower number", core), false;
   return true;
 }
 
@@ -208,7 +207,7 @@ static void print_unmet(const cli_call *call, const tuning *t, const request *r)
   if (r->nearest)
     fprintf(stderr, "sbfmt tune: warning: %s; that is written\n", text);
   else
-    cli_wrong(call, "%s; --nearest writes that", text);
+    cli_wrong(call, "%s; write that with --nearest", text);
 }
 
 static int finish(cli_call *call, tuning *t, const request *r) {
@@ -249,24 +248,26 @@ static int run(cli_call *call) {
   return status;
 }
 
-static const cli_option options[] = {{"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
+static const cli_option options[] = {{"-o", "OUT.sbf[z]", "output file; the ending selects XML or packed"},
     {"--error", "METRES|PERCENT%",
-        "how far its skin may be off, in metres or of its largest extent: the cheapest that keeps it becomes "
-        "level 0; 0 is the nearest of all (1%, without a budget)"},
-    {"--budget", "MICROSECONDS", "what a tick may take on one core here: the nearest within becomes level 0"},
-    {"--nearest", NULL, "write what comes nearest where nothing keeps the goal"},
+        "maximum error of the skin, in metres or of the largest extent: the cheapest within it becomes level "
+        "0; 0 selects the most accurate (1%, without a budget)"},
+    {"--budget", "MICROSECONDS",
+        "maximum time of a tick on one core of this machine: the most accurate within it becomes level 0"},
+    {"--nearest", NULL, "write the closest result if nothing reaches the goal"},
     {"--measure", "most|p99|rms",
-        "what an error is: of the worst vertex, what 99 of 100 vertices keep, or the root of the mean square "
+        "measure of the error: the worst vertex, the 99th percentile of vertices, or the root mean square "
         "(p99 for a percentage, else most)"},
-    {"--elements", "N", "lattices to try, of so many tetrahedra a body; several times for several"},
-    {"--reference", "N", "tetrahedra a body of what all are measured against (12000 in all)"},
-    {"--quick", NULL, "a coarser reference, calibrated lattices and the runtime's own scheme alone"},
-    {"--runs", "N", "runs that a time is the median of (7)"},
-    {"--core", "N", "the core to stay on, of those allowed, from 0 (0)"},
+    {"--elements", "N", "tetrahedra per body of a lattice to try; repeatable"},
+    {"--reference", "N", "tetrahedra per body of the reference (12000 in all)"},
+    {"--quick", NULL,
+        "try less: a coarser reference, only calibrated lattices and the runtime's default scheme"},
+    {"--runs", "N", "number of runs; the median time counts (7)"},
+    {"--core", "N", "processor core to run on, of those allowed, from 0 (0)"},
     {"--format", "text|json", "how to report (text)"}, {NULL, NULL, NULL}};
 
 const cli_verb verb_tune = {"tune", "FILE [--error METRES|PERCENT%] [--budget MICROSECONDS] -o OUT",
-    "find the cheapest levels that are near enough",
+    "find the cheapest levels with a small enough error",
     "Tries the file's own levels and lattices of several sizes, calibrated and as they are, by several "
     "schemes "
     "and\n"

@@ -195,7 +195,7 @@ static int fix(const cli_call *call, const char *from, const char *to) {
 
 static int run_fix(const cli_call *call) {
   const char *to = cli_value(call, "-o");
-  if (!to) return cli_wrong(call, "--fix needs -o OUT: the file given is not changed");
+  if (!to) return cli_wrong(call, "--fix needs -o OUT: it does not change the input");
   if (call->input_count != 1) return cli_wrong(call, "--fix repairs one file at a time");
   if (!output_name_of_bundle(call, "-o")) return SBF_FAILED;
   return fix(call, call->inputs[0], to);
@@ -213,7 +213,7 @@ static int run(cli_call *call) {
   bool listed = true;
   for (int i = 0; i < call->input_count && listed; i++) listed = file_list_add(&list, call->inputs[i]);
   if (listed && list.count == 0) {
-    status = cli_wrong(call, "no .sbf or .sbfz lies in %s", call->inputs[0]);
+    status = cli_wrong(call, "there is no .sbf or .sbfz in %s", call->inputs[0]);
   } else if (listed) {
     uint32_t useful = list.count < (size_t)threads ? (uint32_t)list.count : (uint32_t)threads;
     thread_pool *pool = thread_pool_create(useful); /* without one, files are checked one by one */
@@ -226,7 +226,7 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     {"--strict", NULL, "treat warnings as errors"},
-    {"--fix", NULL, "repair what has one right answer, and write the result"},
+    {"--fix", NULL, "make repairs that have one right answer, and write the result"},
     {"-o", "OUT.sbf[z]", "output of --fix; the ending selects XML or packed"},
     {"--threads", "N", "files checked at the same time (number of processors)"},
     {"--format", "text|json", "how to print (text)"},

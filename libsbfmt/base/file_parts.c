@@ -13,7 +13,8 @@ sbf_status sbfi_file_too_large(sbf_diagnostic *error, const char *path, uint64_t
 
 sbf_status sbfi_file_ends_early(sbf_diagnostic *error, const char *path, uint64_t offset, size_t missing) {
   sbf_status status = sbfi_diagnose(error, SBF_CODE_IO_CANNOT_READ,
-      "the file ends %llu bytes before what is to be read: it was cut short", (unsigned long long)missing);
+      "the file ends %llu bytes too early: it was truncated, copy or export it again",
+      (unsigned long long)missing);
   if (error) {
     sbfi_copy_text(error->file, sizeof error->file, path);
     error->offset = offset > INT64_MAX ? -1 : (int64_t)offset;

@@ -116,7 +116,7 @@ sbf_status sbfi_file_open(const char *path, sbfi_file *file, sbf_diagnostic *err
   if (!S_ISREG(facts.st_mode)) {
     close(handle);
     status = sbfi_diagnose(error, SBF_CODE_IO_CANNOT_READ,
-        "this is a pipe or a device: save its content to a file and give that");
+        "this is a pipe or a device: save its content to a file and name that file");
     if (error) sbfi_copy_text(error->file, sizeof error->file, path);
     return status;
   }

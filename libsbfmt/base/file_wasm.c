@@ -4,7 +4,7 @@
 
 static sbf_status no_files(sbf_code code, const char *path, sbf_diagnostic *error) {
   sbf_status status =
-      sbfi_diagnose(error, code, "there are no files in WebAssembly: hand the bytes over in memory");
+      sbfi_diagnose(error, code, "there are no files in WebAssembly: pass the bytes in memory");
   if (error) sbfi_copy_text(error->file, sizeof error->file, path);
   return status;
 }

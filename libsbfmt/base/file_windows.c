@@ -21,9 +21,9 @@ sbf_status sbfi_file_fault(
       {ERROR_SHARING_VIOLATION, "another program has it open"}, {ERROR_DISK_FULL, "No space left on device"},
       {ERROR_HANDLE_DISK_FULL, "No space left on device"}, {ERROR_NOT_ENOUGH_MEMORY, "no memory"},
       {ERROR_DIRECTORY, "Is a directory"}, {ERROR_INVALID_NAME, "no system path"},
-      {ERROR_FILENAME_EXCED_RANGE, "the path is too long, or no UTF-8"}};
+      {ERROR_FILENAME_EXCED_RANGE, "the path is too long, or is not UTF-8"}};
   char why[64];
-  snprintf(why, sizeof why, "error %d of the system", number);
+  snprintf(why, sizeof why, "system error %d", number);
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (known[i].number == number) sbfi_copy_text(why, sizeof why, known[i].why);
   if (number == ERROR_NOT_ENOUGH_MEMORY) code = SBF_CODE_OUT_OF_MEMORY;

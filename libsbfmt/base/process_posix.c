@@ -322,7 +322,7 @@ sbf_status sbfi_process_run(const char *const *arguments, const sbfi_process_lim
   number = waited < 0 ? errno : 0;
   if (c.kept.failed || number != 0) {
     sbfi_text_free(&c.kept);
-    if (number != 0) return cannot_run(error, arguments[0], "learn the end of", number);
+    if (number != 0) return cannot_run(error, arguments[0], "wait for", number);
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the output of %s", arguments[0]);
   }
   if (WIFSIGNALED(status))
@@ -352,18 +352,18 @@ static const char *signal_meaning(int number) {
   case SIGABRT:
     return " (it aborted)";
   case SIGSEGV:
-    return " (it used memory that is not its own)";
+    return " (it accessed memory that it does not own)";
   case SIGBUS:
-    return " (it used memory that is not there)";
+    return " (it accessed memory that does not exist)";
   case SIGFPE:
-    return " (an impossible calculation)";
+    return " (an arithmetic error)";
   case SIGILL:
-    return " (an impossible instruction)";
+    return " (an illegal instruction)";
   case SIGKILL:
-    return " (it was killed, by the system if memory ran out)";
+    return " (it was killed, for example by the system when memory ran out)";
   case SIGTERM:
   case SIGINT:
-    return " (it was told to stop)";
+    return " (it was asked to stop)";
   default:
     return "";
   }
@@ -378,13 +378,13 @@ void sbfi_process_describe(const sbfi_process_result *result, char *to, size_t s
     snprintf(to, size, "stopped by signal %d%s", result->signal, signal_meaning(result->signal));
     break;
   case SBFI_PROCESS_TIMED_OUT:
-    snprintf(to, size, "stopped at the limit of time");
+    snprintf(to, size, "stopped at the time limit");
     break;
   case SBFI_PROCESS_CPU_LIMIT:
-    snprintf(to, size, "stopped at the limit of processor time");
+    snprintf(to, size, "stopped at the processor time limit");
     break;
   case SBFI_PROCESS_OUTPUT_TOO_LARGE:
-    snprintf(to, size, "stopped at the limit of output");
+    snprintf(to, size, "stopped at the output limit");
     break;
   }
 }

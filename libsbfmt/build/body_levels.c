@@ -32,7 +32,7 @@ static void warn_of_attachments(sbfi_build *b, uint32_t body) {
       continue;
     sbf_diagnostic diagnostic;
     sbfi_diagnose(&diagnostic, SBF_CODE_ATTACHMENT_NO_HULL,
-        "rigid body \"%s\" has no hull that points could be inside of",
+        "rigid body \"%s\" has no hull, so no point is inside it",
         b->asset->rigid_bodies.at[rule->rigid_body].name);
     snprintf(diagnostic.path, sizeof diagnostic.path, "/sbf/soft_body[%u]/attachments/attachment[%u]",
         body + 1, i + 1);
@@ -88,7 +88,8 @@ static sbf_status outcome_status(sbfi_build *b, uint32_t number, sbfi_lattice_ou
     return sbfi_build_no_memory(b);
   case SBFI_LATTICE_TOO_FINE:
     return sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_TOO_FINE,
-        "a lattice of this cell in soft body \"%s\" would have more than 2^28 nodes: give a larger cell",
+        "a lattice with this cell size in soft body \"%s\" would have more than 2^28 nodes: use a larger "
+        "cell",
         b->bodies[number].name);
   case SBFI_LATTICE_MADE:
     break;
@@ -189,8 +190,8 @@ static sbf_status make_tetrahedra(
   if (status != SBF_OK) return status;
   if (counts.tetrahedra == 0) {
     sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_EMPTY,
-        "soft body \"%s\" encloses nothing that a lattice of %.4g m could fill: it gets springs over its "
-        "surface",
+        "soft body \"%s\" encloses no volume that a lattice with cells of %.4g m could fill: springs over "
+        "its surface are built instead",
         body->name, (double)level->cell);
     return make_springs(b, number, SBF_BUILD_INTERIOR_NONE, scratch) ? SBF_OK : sbfi_build_no_memory(b);
   }
@@ -260,8 +261,8 @@ static sbf_status make_level(sbfi_build *b, uint32_t number, sbfi_level_findings
       &set, &b->bodies[number], &recipe, b->asset, stretch_of_body(b, number), &b->scratch.allocator);
   if (interior == SBF_BUILD_INTERIOR_BRUTE && b->bodies[number].surface.positions.count > MAX_BRUTE_POINTS)
     status = sbfi_build_report_of_body(b, number, SBF_CODE_INTERIOR_TOO_MANY,
-        "soft body \"%s\" has more than %d points: springs between all of them are for comparing small "
-        "bodies",
+        "soft body \"%s\" has more than %d points, too many for springs between all of them: use another "
+        "method",
         b->bodies[number].name, MAX_BRUTE_POINTS);
   else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
     status = make_tetrahedra(b, number, &set, findings, &scratch);
@@ -364,9 +365,8 @@ static sbf_status check_elements(sbfi_build *b) {
   }
   if (!(sum > MAX_ELEMENTS)) return SBF_OK;
   return sbfi_build_report_of_body(b, largest, SBF_CODE_LATTICE_TOO_FINE,
-      "the bodies would get about %.2g tetrahedra, %.2g of them in soft body \"%s\", and %.0f are the most "
-      "for "
-      "all together: give a larger cell (--cell) or fewer elements (--elements, or `elements` of a section "
+      "the bodies would have about %.2g tetrahedra, %.2g of them in soft body \"%s\", and the limit for all "
+      "bodies is %.0f: use a larger cell (--cell) or fewer elements (--elements, or `elements` of a section "
       "recipe)",
       sum, max, b->bodies[largest].name, MAX_ELEMENTS);
 }
@@ -390,7 +390,8 @@ sbf_status sbfi_body_levels_make(sbfi_build *b) {
       if (status != SBF_OK) return status;
     } else {
       sbfi_build_report_of_body(b, i, SBF_CODE_BODY_WITHOUT_POINTS,
-          "soft body \"%s\" has no surface points to build a level on", b->bodies[i].name);
+          "soft body \"%s\" has no surface points, so no level can be built: add a surface",
+          b->bodies[i].name);
     }
   }
   return SBF_OK;

@@ -144,7 +144,7 @@ static sbf_status renumber(sbfi_build *b) {
     break;
   }
   sbf_status status = sbfi_diagnose(b->error, SBF_CODE_DERIVED_LOST,
-      "refers to one of the %s that an earlier build made and this one does not: let it name an authored one",
+      "refers to one of the %s that an earlier build made and this build did not: refer to an authored one",
       lost.collection);
   if (b->error) memcpy(b->error->path, lost.path, sizeof b->error->path);
   return status;
@@ -237,7 +237,7 @@ static sbf_status check_made(sbfi_build *b) {
   if (sbf_asset_check(b->asset, store_finding, &diagnostic, 1) == 0) return SBF_OK;
   if (diagnostic.code == SBF_CODE_OUT_OF_MEMORY) return sbfi_build_no_memory(b);
   sbf_status status = sbfi_diagnose(b->error, SBF_CODE_VALUE_NOT_FINITE,
-      "what the build makes here is no sound number (%.200s): look at the source's sizes and attributes",
+      "the build computed an invalid number here (%.200s): check the sizes and attributes of the source",
       diagnostic.message);
   if (b->error) memcpy(b->error->path, diagnostic.path, sizeof b->error->path);
   return status;
@@ -253,15 +253,14 @@ static sbf_status run(sbfi_build *b) {
       {"hulls", 0.11, make_hulls}, {"references", 0.15, renumber}, {"joints", 0.18, make_joints},
       {"levels", 0.2, sbfi_body_levels_make}, {"frames of sections", 0.59, make_frames},
       {"embeddings", 0.6, embed}, {"render levels", 0.8, make_render_levels},
-      {"lattices no longer needed", 0.89, sbfi_body_lattices_clear},
-      {"figures of the whole", 0.9, record_figures}, {"the check of what was made", 0.92, check_made},
-      {"the hash of the source", 0.95, hash_source}};
+      {"unused lattices", 0.89, sbfi_body_lattices_clear}, {"the bounds and the mass", 0.9, record_figures},
+      {"the check of the result", 0.92, check_made}, {"the hash of the source", 0.95, hash_source}};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     sbf_status status = sbfi_build_report_progress(b, passes[i].name, passes[i].done);
     if (status == SBF_OK) status = passes[i].run(b);
     if (status != SBF_OK) return status;
   }
-  return sbfi_build_report_progress(b, "the last of it", 1);
+  return sbfi_build_report_progress(b, "the last part", 1);
 }
 
 sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, sbf_asset **built,

@@ -149,15 +149,18 @@ static bool is_length(double metres) {
 
 sbf_status sbfi_build_settings_check(sbf_build_options *o, sbf_diagnostic *error) {
   if ((unsigned)o->interior >= SBFI_BUILD_INTERIOR_COUNT)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known interior");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options have an unknown interior method");
   if ((unsigned)o->sections > SBF_BUILD_SECTIONS_NONE || !is_length(o->overlap_m))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known way to cut sections");
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "the build options have an unknown method to cut sections");
   if (!is_length(o->cell_m))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name a cell that is no length");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "the cell size of the build options is not a length: use a finite number above 0, or 0 for the "
+        "default");
   if (o->levels > SBFI_MAX_LEVELS || o->render_levels > SBFI_MAX_RENDER_LEVELS || !is_length(o->error_m) ||
       !is_length(o->render_error_m))
-    return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "the build options name more than 8 levels, or an error that is no length");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "the build options have more than 8 levels, or an error that is not a length");
   double *lengths[] = {&o->overlap_m, &o->cell_m, &o->error_m, &o->render_error_m};
   for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++)
     *lengths[i] = sbfi_build_settings_cell(*lengths[i]);

@@ -4,7 +4,7 @@
 
 sbf_status sbfi_build_no_memory(sbfi_build *b) {
   if (b->cancelled) return SBF_FAILED;
-  return sbfi_diagnose(b->error, SBF_CODE_OUT_OF_MEMORY, "no memory left to build in");
+  return sbfi_diagnose(b->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while building");
 }
 
 sbf_status sbfi_build_report_progress(sbfi_build *b, const char *pass, double done) {

@@ -4,14 +4,14 @@ static void report_poor_level(sbfi_build *b, uint32_t number, const sbfi_poor_le
   const char *name = b->bodies[number].name;
   if (level->load_error > 0)
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_OFF,
-        "a level of %u tetrahedra of soft body \"%s\" is off by %.0f %% of what its matter gives under one "
-        "of the loads: %s, give it more elements (--elements, --cell)",
+        "a level with %u tetrahedra of soft body \"%s\" has a displacement error of %.0f %% under one of the "
+        "loads: %s; use more elements (--elements, --cell)",
         (unsigned)level->elements, name, 100 * level->load_error,
-        level->is_kept ? "the file states each" : "it is left out");
+        level->is_kept ? "the file states each error" : "it is left out");
   else
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
-        "a level of %u tetrahedra of soft body \"%s\" comes to no rest under gravity where a fine one does: "
-        "%s, give it more elements (--elements, --cell) or pin more points",
+        "a level with %u tetrahedra of soft body \"%s\" does not come to rest under gravity, but a fine "
+        "level does: %s; use more elements (--elements, --cell) or pin more points",
         (unsigned)level->elements, name, level->is_kept ? "its error is not stated" : "it is left out");
 }
 
@@ -19,19 +19,20 @@ void sbfi_level_findings_report(sbfi_build *b, uint32_t number, const sbfi_level
   const char *name = b->bodies[number].name;
   if (of->missed_elements > 0)
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_ERROR_MISSED,
-        "no lattice of soft body \"%s\" coarser than %u tetrahedra comes within %.4g m: it gets so many",
+        "no lattice of soft body \"%s\" with fewer than %u tetrahedra has an error below %.4g m: the body "
+        "uses that many",
         name, (unsigned)of->missed_elements, b->options.error_m);
   /* Tips and rims are always thin: a few such points are no thin limb. */
   if (of->thinness.thin_count > of->thinness.sample_count / 50)
     sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_THIN,
-        "%u of %u points looked at on soft body \"%s\" stand on matter thinner than two elements, the "
-        "thinnest %.4g m at a cell of %.4g m: a smaller cell (--cell, --elements) gives it more",
+        "at %u of %u sampled points, soft body \"%s\" is thinner than two elements, at the thinnest %.4g m "
+        "with a cell of %.4g m: use a smaller cell or more elements (--cell, --elements)",
         (unsigned)of->thinness.thin_count, (unsigned)of->thinness.sample_count, name, of->thinness.min,
         of->cell);
   if (of->can_rotate)
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
-        "soft body \"%s\", or a piece of it, is held at points of one line alone and turns about them: "
-        "nothing is calibrated and no error stated, pin points beside that line",
+        "soft body \"%s\", or a piece of it, is pinned only at points on one line and can rotate about it: "
+        "it is not calibrated and no error is stated; pin points off that line",
         name);
   for (uint32_t i = 0; i < of->poor_count; i++) report_poor_level(b, number, &of->poor[i]);
 }

@@ -385,8 +385,9 @@ static void report_unsupported(paper_writer *w, uint32_t without_lattice) {
   uint32_t drives = 0;
   for (uint32_t i = 0; i < a->joints.count; i++) drives += a->joints.at[i].drives.count;
   const sbfi_left_out things[] = {{without_lattice, "soft bodies without tetrahedra"},
-      {w->lost_vertices, "vertices that no tetrahedron carries"}, {w->lost_embeddings, "further embeddings"},
-      {w->skewed_limits, "lesser bounds of limits that are not symmetric"}, {drives, "drives of joints"},
+      {w->lost_vertices, "vertices that are not embedded in a tetrahedron"},
+      {w->lost_embeddings, "further embeddings"},
+      {w->skewed_limits, "minima of limits that are not symmetric"}, {drives, "drives of joints"},
       {a->bones.count, "bones"}, {a->materials.count, "materials"}, {a->cross_springs.count, "cross springs"},
       {a->ik_chains.count, "IK chains"}, {a->gaits.count, "gaits"}, {a->clips.count, "clips"}};
   sbfi_export_left_out(w->e, "the 2012 dialect", things, sizeof things / sizeof *things);
@@ -410,7 +411,7 @@ static sbf_status write_model(paper_writer *w) {
   line(w, 0, "</model>");
   if (without_lattice == asset->soft_bodies.count && !asset->rigid_bodies.count)
     return sbfi_diagnose(w->e->error, SBF_CODE_EXPORT_EMPTY,
-        "the file holds neither tetrahedra nor rigid bodies: there is nothing to write to %s", w->e->path);
+        "the file has neither tetrahedra nor rigid bodies: there is nothing to write to %s", w->e->path);
   report_unsupported(w, without_lattice);
   return sbfi_export_commit(w->e, w->e->path);
 }

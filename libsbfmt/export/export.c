@@ -17,7 +17,8 @@ sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error) {
   sbf_export_options taken = {0};
   if (!sbfi_options_copy(&taken, sizeof taken, options))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_export_options has a size that no version had");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbf_export_options has a size that no version of the library had: initialize it with the defaults");
   options = &taken;
   const char *ending = strrchr(path, '.');
   for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
@@ -40,7 +41,7 @@ sbf_status sbf_export(
     return status;
   }
   return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-      "%s: the ending says which form to write, and there are .glb, .html, .obj, .tet, .node, .msh, .vtu, "
-      ".mjcf, .usda, .xml (the 2012 dialect), .csv and .json (skin weights)",
+      "%s: the ending selects the format; use .glb, .html, .obj, .tet, .node, .msh, .vtu, .mjcf, .usda, .xml "
+      "(the 2012 dialect), .csv or .json (skin weights)",
       path);
 }

@@ -36,7 +36,7 @@ void sbfi_export_left_out(sbfi_export *e, const char *form, const sbfi_left_out 
         list + length, sizeof list - length, "%s%s: %u", length ? ", " : "", things[i].what, things[i].count);
     length += more > 0 ? (size_t)more : 0;
   }
-  if (length) sbfi_export_warn(e, "%s has no place for all of this, which is left out. %s", form, list);
+  if (length) sbfi_export_warn(e, "%s cannot store some content, which is left out. %s", form, list);
 }
 
 static void print_v(sbfi_text *text, const char *format, va_list arguments) {

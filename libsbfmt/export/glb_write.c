@@ -121,11 +121,12 @@ static void report_unsupported(const sbfi_glb *g) {
       {a->retarget_chains.count, "retargeting chains"}, {uv_sets, "uv sets beyond four"},
       {g->omitted_images, "images that are neither PNG nor JPEG nor WebP, or not found"},
       {g->omitted_tracks, "clip tracks without increasing times"},
-      {inherit, "bones that take no turn or scale of their parent"}};
+      {inherit, "bones that do not inherit the rotation or scale of their parent"}};
   if (!g->e->soft_bodies) sbfi_export_left_out(g->e, "glTF", things, sizeof things / sizeof *things);
   if (g->worst_m > 0.0005)
     sbfi_export_warn(g->e,
-        "where joints turned against each other fold the skin flat the motion written is up to %.1f mm off",
+        "the written motion has an error of up to %.1f mm where opposite rotations of joints flatten the "
+        "skin",
         1000 * g->worst_m);
 }
 
@@ -157,10 +158,10 @@ sbf_status sbfi_export_glb(sbfi_export *e) {
         "%s: soft bodies belong to the full meshes: leave the render level out", e->path);
   if (!asset->render_meshes.count && !asset->bones.count && !e->soft_bodies)
     return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
-        "the file holds neither a render mesh nor a skeleton: there is nothing to write to %s", e->path);
+        "the file has neither a render mesh nor a skeleton: there is nothing to write to %s", e->path);
   if (asset->bones.count >= UINT16_MAX)
     return sbfi_diagnose(e->error, SBF_CODE_BAD_CALL,
-        "%s: glTF counts joints to 65535, and there are %u bones", e->path, asset->bones.count);
+        "%s: glTF allows at most 65535 joints, and there are %u bones", e->path, asset->bones.count);
   sbfi_glb g = {.e = e};
   sbfi_arena_init(&g.arena, &e->allocator, 0);
   sbfi_text_init(&g.bytes, &e->allocator);

@@ -38,7 +38,7 @@ static sbf_status find_parts(sbfi_export *e, char *to, size_t size) {
   const char *stated = getenv("SBFMT_WEB");
   if (stated && *stated) {
     if (is_file(stated, "", to, size)) return SBF_OK;
-    return sbfi_diagnose(e->error, SBF_CODE_EXPORT_PAGE_MISSING, "%s, which SBFMT_WEB names, has no %s",
+    return sbfi_diagnose(e->error, SBF_CODE_EXPORT_PAGE_MISSING, "the folder %s, set by SBFMT_WEB, has no %s",
         stated, template_name);
   }
   if (sbfi_program_folder(folder, sizeof folder) && find_from(folder, to, size)) return SBF_OK;
@@ -89,7 +89,7 @@ static sbf_status append_part(sbfi_export *e, const char *folder, sbfi_span name
     return sbfi_diagnose(e->error, SBF_CODE_EXPORT_PAGE_MISSING, "the path of %s is too long", template_name);
   if (sbfi_file_read(path, LARGEST_PART, &e->allocator, &part, NULL) != SBF_OK)
     return sbfi_diagnose(
-        e->error, SBF_CODE_EXPORT_PAGE_MISSING, "%s cannot be read: install sbfmt anew", path);
+        e->error, SBF_CODE_EXPORT_PAGE_MISSING, "%s cannot be read: install sbfmt again", path);
   (as_base64 ? append_base64 : append_script)(&e->text, part.at, part.size);
   sbfi_file_content_free(&part);
   return SBF_OK;
@@ -113,7 +113,8 @@ static void append_images(sbfi_export *e) {
     int length = snprintf(path, sizeof path, "%s/%s", e->folder ? e->folder : ".", texture->path);
     if (length <= 0 || (size_t)length >= sizeof path ||
         sbfi_file_read(path, LARGEST_PART, &e->allocator, &image, NULL) != SBF_OK) {
-      sbfi_export_warn(e, "the image %s cannot be read: the page shows the plain colour", texture->path);
+      sbfi_export_warn(
+          e, "the image %s cannot be read: the page shows the plain colour instead", texture->path);
       continue;
     }
     sbfi_export_format(e, "<script type=\"text/plain\" data-texture=\"%u\">", (unsigned)i);

@@ -37,7 +37,7 @@ sbf_status sbfi_export_mjcf(sbfi_export *e) {
   const sbf_asset *asset = e->asset;
   if (!asset->rigid_bodies.count && !asset->soft_bodies.count)
     return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
-        "there is neither a rigid nor a soft body: there is nothing to write to %s", e->path);
+        "the file has neither a rigid nor a soft body: there is nothing to write to %s", e->path);
   mjcf_writer w;
   memset(&w, 0, sizeof w);
   w.e = e;
@@ -49,13 +49,13 @@ sbf_status sbfi_export_mjcf(sbfi_export *e) {
       {w.without_level, "soft bodies without tetrahedra or springs (build makes them)"},
       {w.goals, "goal springs"}, {w.moduli, "soft bodies whose elements differ (their mean is written)"},
       {w.bending, "held sheets' bending"}, {w.ratios, "Poisson ratios outside 0 to 0.499"},
-      {w.massless, "moving bodies' masses of 0"}, {w.loops, "joints that close loops"},
-      {w.loop_bounds, "limits and drives of those that close loops"}, {w.pulleys, "pulleys"},
-      {w.soft_limits, "limits' springs"}, {w.drives, "drives' speeds, bounds and distances"},
-      {w.breaking, "breaking loads"}, {w.touching, "joined bodies that touch"},
-      {w.selves, "contacts of springs' bodies with themselves"},
-      {w.sharing, "soft bodies whose contacts have no bits of their own"},
-      {asset->cross_springs.count, "sets of cross springs"}};
+      {w.massless, "moving bodies with a mass of 0"}, {w.loops, "joints that close loops"},
+      {w.loop_bounds, "limits and drives of joints that close loops"}, {w.pulleys, "pulleys"},
+      {w.soft_limits, "limits' springs"}, {w.drives, "speeds, limits and distances of drives"},
+      {w.breaking, "breaking loads"}, {w.touching, "contacts between bodies that a joint connects"},
+      {w.selves, "self-contacts of bodies made of springs"},
+      {w.sharing, "soft bodies whose contacts share collision bits"},
+      {asset->cross_springs.count, "springs between bodies"}};
   sbfi_export_left_out(e, "MJCF", things, sizeof things / sizeof *things);
   const sbfi_left_out others[] = {{asset->render_meshes.count, "render meshes"},
       {asset->clips.count, "clips"}, {asset->gaits.count, "gaits"}, {asset->ik_chains.count, "IK chains"},

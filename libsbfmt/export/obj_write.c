@@ -206,7 +206,7 @@ sbf_status sbfi_export_obj(sbfi_export *e) {
   bool surfaces = asset->render_meshes.count == 0;
   if (surfaces && !asset->soft_bodies.count)
     return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
-        "the file holds neither a render mesh nor a soft body: there is nothing to write to %s", e->path);
+        "the file has neither a render mesh nor a soft body: there is nothing to write to %s", e->path);
   if (!library_path(e->path, library, sizeof library))
     return sbfi_diagnose(e->error, SBF_CODE_IO_CANNOT_WRITE, "the path is too long: %.80s...", e->path);
   bool is_new = asset->materials.count && !exists(library);

@@ -84,14 +84,14 @@ sbf_status sbfi_export_usda(sbfi_export *e) {
   const sbfi_left_out soft[] = {
       {w.without_level, "soft bodies that are neither lattices nor sheets of springs"},
       {w.goals, "goal springs"}, {w.moduli, "soft bodies whose elements differ (their mean is written)"},
-      {w.damped, "soft bodies' damping"}, {w.inelastic, "soft bodies that yield, tear or are blown up"},
-      {asset->cross_springs.count, "sets of cross springs"}};
-  const sbfi_left_out rigid[] = {{w.pulleys, "pulleys"}, {w.soft_limits, "limits' springs and restitution"},
-      {w.filters, "bodies that meet some layers alone"}, {w.weights, "factors on gravity"},
+      {w.damped, "soft bodies' damping"}, {w.inelastic, "soft bodies that yield, tear or are inflated"},
+      {asset->cross_springs.count, "springs between bodies"}};
+  const sbfi_left_out rigid[] = {{w.pulleys, "pulleys"}, {w.soft_limits, "springs and restitution of limits"},
+      {w.filters, "bodies that collide with some layers only"}, {w.weights, "factors on gravity"},
       {asset->environment.fields.count, "force fields"}};
   const sbfi_left_out others[] = {{w.images, "images of materials"},
-      {w.shared, "meshes that several bodies carry (bones alone move them)"},
-      {w.keys, "shape keys of meshes that a body carries"}, {asset->clips.count, "clips"},
+      {w.shared, "meshes that several bodies deform (only bones move them)"},
+      {w.keys, "shape keys of meshes that a body deforms"}, {asset->clips.count, "clips"},
       {asset->poses.count, "poses"}, {asset->gaits.count, "gaits"}, {asset->ik_chains.count, "IK chains"},
       {asset->chains.count, "chains"}, {asset->followers.count, "followers"}};
   sbfi_export_left_out(e, "USD", soft, sizeof soft / sizeof *soft);

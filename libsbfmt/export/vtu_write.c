@@ -125,7 +125,7 @@ sbf_status sbf_result_series_open(
   size_t length = strlen(path), end = sizeof ending - 1;
   *series = NULL;
   if (length >= PATH_BYTES || length <= end || strcmp(path + length - end, ending) != 0)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: results go to a path that ends in .pvd", path);
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: the path of results must end in .pvd", path);
   sbf_result_series *s = sbfi_allocate(&allocator, sizeof *s);
   if (!s) return no_memory(error);
   *s = (sbf_result_series){.allocator = allocator, .mesh = mesh, .stem = length - end};

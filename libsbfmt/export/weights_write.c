@@ -63,7 +63,7 @@ static uint32_t write_rows(sbfi_export *e, write_row row) {
 static sbf_status commit(sbfi_export *e, uint32_t rows) {
   if (rows) return sbfi_export_commit(e, e->path);
   return sbfi_diagnose(e->error, SBF_CODE_BAD_CALL,
-      "%s: no mesh of the bundle hangs on a bone: there are no weights", e->path);
+      "%s: no mesh of the bundle is attached to a bone, so there are no weights to write", e->path);
 }
 
 sbf_status sbfi_export_weights_csv(sbfi_export *e) {

@@ -58,25 +58,25 @@ static const char *find_forbidden(const char *text) {
 static void check_text(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
   const char *text = sbfi_get_pointer(path->object, field);
   if (!text) {
-    fault(
-        c, SBF_CODE_BAD_TEXT, path, field, -1, "`%s` is NULL: an absent text is the empty one", field->name);
+    fault(c, SBF_CODE_BAD_TEXT, path, field, -1, "`%s` is NULL: use an empty text instead", field->name);
     return;
   }
   if (!*text) {
     if (field->type == SBFI_ID)
       fault(c, SBF_CODE_ID_EMPTY, path, field, -1, "the id is empty: give it one that is unique in the file");
     else if (field->required)
-      fault(c, SBF_CODE_REQUIRED_MISSING, path, field, -1, "`%s` must be given and not empty", field->name);
+      fault(c, SBF_CODE_REQUIRED_MISSING, path, field, -1, "`%s` is required and must not be empty",
+          field->name);
     return;
   }
   size_t length = strlen(text), good = sbfi_utf8_check(text, length);
   const char *forbidden;
   if (good < length)
     fault(c, SBF_CODE_NOT_UTF8, path, field, -1,
-        "`%s` is not valid UTF-8 from its byte %zu on: write it in that encoding", field->name, good);
+        "`%s` is not valid UTF-8 at byte %zu: save it in that encoding", field->name, good);
   else if ((forbidden = find_forbidden(text)))
     fault(c, SBF_CODE_BAD_TEXT, path, field, -1,
-        "`%s` holds a character at byte %zu that XML cannot carry: remove it", field->name,
+        "`%s` has a character at byte %zu that XML does not allow: remove it", field->name,
         (size_t)(forbidden - text));
 }
 
@@ -91,14 +91,14 @@ static void check_id(checker *c, const sbfi_element_path *path, const sbfi_field
     return;
   }
   if (!first) return;
-  char other[sizeof((sbf_diagnostic *)0)->path] = "an object further up";
+  char other[sizeof((sbf_diagnostic *)0)->path] = "an earlier object";
   if (first->collection) {
     sbfi_element_path root = sbfi_element_path_root(c->asset);
     sbfi_element_path there = sbfi_element_path_child(&root, first->collection, first->index);
     sbfi_element_path_print(&there, NULL, other, sizeof other);
   }
   fault(c, SBF_CODE_ID_REPEATED, path, field, -1,
-      "the id `%s` is that of %s as well: ids are unique in the whole file", id, other);
+      "the id `%s` is also used by %s: ids must be unique in the file", id, other);
 }
 
 /* --- numbers --- */
@@ -175,12 +175,12 @@ static void check_floats(
   int64_t item = field->type == SBFI_LIST ? (int64_t)(bad / field->width) : -1;
   char component[16] = "";
   if (field->width > 1) snprintf(component, sizeof component, ".%c", "xyzw"[bad % field->width]);
-  const char *verb = field->type == SBFI_LIST ? "holds" : "is";
+  const char *verb = field->type == SBFI_LIST ? "has" : "is";
   if (!is_finite(at[bad]))
     fault(c, SBF_CODE_VALUE_NOT_FINITE, path, field, item, "`%s`%s %s %s: every number must be finite",
         field->name, component, verb, text_of(at[bad]).at);
   else
-    fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, item, "`%s`%s %s %s, outside %s: give a value inside",
+    fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, item, "`%s`%s %s %s, outside %s: use a value inside",
         field->name, component, verb, text_of(at[bad]).at, text_of_range(field).at);
 }
 
@@ -190,14 +190,14 @@ static void check_integer(checker *c, const sbfi_element_path *path, const sbfi_
   if (!field->has_range || ((field->min_open ? number > field->min : number >= field->min) &&
                                (field->max_open ? number < field->max : number <= field->max)))
     return;
-  fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, -1, "`%s` is %.0f, outside %s: give a value inside",
+  fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, -1, "`%s` is %.0f, outside %s: use a value inside",
       field->name, number, text_of_range(field).at);
 }
 
 static void check_enum(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
   int32_t value = sbfi_get_integer(path->object, field);
   if ((uint32_t)value >= field->value_count)
-    fault(c, SBF_CODE_ENUM_OUT_OF_RANGE, path, field, -1, "`%s` is %d, but its words are numbered 0 to %u",
+    fault(c, SBF_CODE_ENUM_OUT_OF_RANGE, path, field, -1, "`%s` is %d, but its values are numbered 0 to %u",
         field->name, value, field->value_count - 1);
 }
 
@@ -213,7 +213,7 @@ static void check_ref(checker *c, const sbfi_element_path *path, const sbfi_fiel
         value, count, field->target_name);
   } else if (field->earlier && (uint32_t)value >= path->index) {
     fault(c, SBF_CODE_BONE_ORDER, path, field, -1,
-        "`%s` is `%s`, which does not stand before it: sort the %s, each after the one it names", field->name,
+        "`%s` is `%s`, which does not precede it: sort the %s, each after the one it names", field->name,
         sbfi_ref_id(c->asset, field, value), field->target_name);
   }
 }
@@ -236,7 +236,7 @@ static void check_length(checker *c, const sbfi_element_path *path, const sbfi_f
     if (added > 0 && (used += (size_t)added) >= sizeof allowed) used = sizeof allowed - 1;
   }
   if (field->length_count)
-    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items where %s belong", field->name, count,
+    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items instead of %s", field->name, count,
         allowed);
 }
 
@@ -252,7 +252,7 @@ static void check_integers(
   size_t bad = sbfi_find_u32_outside(at, count, low, high);
   if (bad < count)
     fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, (int64_t)(bad / field->width),
-        "`%s` holds %u, outside %s: give a value inside", field->name, at[bad], text_of_range(field).at);
+        "`%s` has %u, outside %s: use a value inside", field->name, at[bad], text_of_range(field).at);
 }
 
 static bool check_indices(
@@ -262,7 +262,7 @@ static bool check_indices(
   size_t bad = limit ? sbfi_find_u32_outside(at, count, 0, (uint32_t)limit - 1) : 0;
   if (bad == count) return true;
   fault(c, SBF_CODE_INDEX_OUT_OF_RANGE, path, field, (int64_t)(bad / field->width),
-      "`%s` names %u, but %s counts %llu, from 0 on", field->name, at[bad], field->index->text,
+      "`%s` names %u, but %s has %llu items, counted from 0", field->name, at[bad], field->index->text,
       (unsigned long long)limit);
   return false;
 }
@@ -274,7 +274,7 @@ static void check_positive(
   size_t bad = sbfi_find_not_positive(list.at, list.count, positions.at);
   if (bad < list.count)
     fault(c, SBF_CODE_TETRAHEDRON_INVERTED, path, field, (int64_t)bad,
-        "tetrahedron %zu is inverted or flat: swap two of its points, or take it out", bad);
+        "tetrahedron %zu is inverted or flat: swap two of its points, or remove it", bad);
 }
 
 static void check_list(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
@@ -283,8 +283,8 @@ static void check_list(checker *c, const sbfi_element_path *path, const sbfi_fie
   check_length(c, path, field, list.count);
   if (list.count && !list.at) {
     if (c->outline) return;
-    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items, but points nowhere", field->name,
-        list.count);
+    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items, but its pointer is NULL",
+        field->name, list.count);
     return;
   }
   if (field->item == SBFI_ITEM_F32) check_floats(c, path, field, list.at, scalars);
@@ -301,7 +301,7 @@ static void check_fixed(checker *c, const sbfi_element_path *child) {
   if (!field->fixed_name) return;
   const sbfi_field *fixed = sbfi_element_field(field->element, field->fixed_name);
   if (sbfi_get_integer(child->object, fixed) != field->fixed_value)
-    fault(c, SBF_CODE_FIXED_VALUE, child, fixed, -1, "`%s` must be `%s` in this place", fixed->name,
+    fault(c, SBF_CODE_FIXED_VALUE, child, fixed, -1, "`%s` must be `%s` here", fixed->name,
         fixed->values[field->fixed_value]);
 }
 
@@ -310,8 +310,8 @@ static void check_object(checker *c, const sbfi_element_path *path);
 static void check_children(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
   uint32_t count = sbfi_child_count(path->object, field);
   if (field->type == SBFI_MANY && count && !sbfi_get_list(path->object, field).at) {
-    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items, but points nowhere", field->name,
-        count);
+    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items, but its pointer is NULL",
+        field->name, count);
     return;
   }
   for (uint32_t i = 0; i < count && !is_done(c); i++) {
@@ -379,11 +379,11 @@ static void check_version(checker *c, const sbfi_element_path *root) {
     break;
   case SBFI_VERSION_TOO_NEW:
     fault(c, SBF_CODE_VERSION_TOO_NEW, root, field, -1,
-        "the file is of version %s, this library reads %s: update it", version, SBF_FORMAT_VERSION);
+        "the file has version %s, this library reads %s: update it", version, SBF_FORMAT_VERSION);
     break;
   case SBFI_VERSION_MALFORMED:
     fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, root, field, -1,
-        "`version` is `%s`, not of the form major.minor: write %s", version, SBF_FORMAT_VERSION);
+        "`version` is `%s`, which does not have the form major.minor: write %s", version, SBF_FORMAT_VERSION);
     break;
   }
 }
@@ -459,9 +459,8 @@ void sbfi_report_left_out(
   sbf_diagnostic warning;
   if (!left_out || !options->report) return;
   sbfi_diagnose(&warning, SBF_CODE_VERSION_NEWER,
-      "the file is of version %.20s, this library knows %s: %u part%s of it %s left out, the first is "
-      "%.120s; "
-      "update the library before you save the file anew",
+      "the file has version %.20s, this library knows %s: %u part%s of it %s left out, the first is %.120s; "
+      "update the library before you save the file again",
       stated, SBF_FORMAT_VERSION, left_out, left_out == 1 ? "" : "s", left_out == 1 ? "was" : "were", first);
   if (*first == '/') sbfi_copy_text(warning.path, sizeof warning.path, first);
   if (options->name) sbfi_copy_text(warning.file, sizeof warning.file, options->name);

@@ -153,9 +153,8 @@ static sbf_status prepare(motion *m) {
   if (matched < 0) return no_memory(m);
   if (matched == 0)
     return sbfi_diagnose(m->error, SBF_CODE_IMPORT_MOTION_NONE,
-        "none of its %u bones stands for one of the skeleton's %u: name bones alike (LeftUpLeg, thigh.L "
-        "...), or "
-        "give both bundles retarget chains",
+        "none of its %u bones corresponds to one of the skeleton's %u bones: use equal bone names "
+        "(LeftUpLeg, thigh.L ...), or add retarget chains to both bundles",
         m->from->bones.count, m->to->bones.count);
   sbfi_compute_rest_frames(m->to, m->rest);
   sbfi_compute_rest_frames(m->from, from_rest);
@@ -188,7 +187,7 @@ static sbf_status report_unmatched(motion *m) {
     if (!taken[i]) add_name(there, &there_count, m->from->bones.at[i].name);
   if (here_count)
     report_finding(m, SBF_CODE_IMPORT_MOTION_UNMATCHED,
-        "%u of the skeleton's %u bones have no counterpart and go along with their parents: %s%s", here_count,
+        "%u of the skeleton's %u bones have no counterpart and follow their parents: %s%s", here_count,
         m->to->bones.count, here, here_count > NAMES_SHOWN ? ", ..." : "");
   if (there_count)
     report_finding(m, SBF_CODE_IMPORT_MOTION_UNMATCHED, "%u of the file's %u bones have no counterpart: %s%s",
@@ -334,7 +333,7 @@ static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena 
   to->loop = from->loop;
   to->tracks = (sbf_track_list){tracks, count};
   report_finding(m, SBF_CODE_IMPORT_MOTION,
-      "clip '%s', %.2f s: %u bones follow, '%s' travels %.3g times as far as '%s'", to->name,
+      "clip '%s', %.2f s: %u bones were transferred, '%s' travels %.3g times as far as '%s'", to->name,
       (double)to->duration, matched, m->to->bones.at[m->traveller].name, m->ratio,
       m->from->bones.at[m->leader].name);
   return true;
@@ -398,9 +397,9 @@ sbf_status sbfi_retarget_clips(sbf_asset *asset, const sbf_asset *from, const ch
   sbfi_arena_init(&m.scratch, allocator, 0);
   if (asset->bones.count == 0)
     status = sbfi_diagnose(
-        m.error, SBF_CODE_IMPORT_MOTION_NONE, "there is no skeleton to move: give one with --rig");
+        m.error, SBF_CODE_IMPORT_MOTION_NONE, "there is no skeleton to move: add one with --rig");
   else if (from->clips.count == 0 || from->bones.count == 0)
-    status = sbfi_diagnose(m.error, SBF_CODE_IMPORT_MOTION_NONE, "the file holds no motion of bones");
+    status = sbfi_diagnose(m.error, SBF_CODE_IMPORT_MOTION_NONE, "the file has no motion of bones");
   if (status == SBF_OK) status = prepare(&m);
   if (status == SBF_OK) status = report_unmatched(&m);
   if (status == SBF_OK) status = add_clips(&m);

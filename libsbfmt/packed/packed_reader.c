@@ -86,14 +86,14 @@ void sbfi_packed_reader_close(sbfi_packed_reader *reader) {
 sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const sbfi_packed_chunk *wanted) {
   if (number >= reader->table.chunk_count)
     return sbfi_diagnose(reader->error, SBF_CODE_PACKED_RECORD,
-        "chunk %u is referred to, but the table has %u", number, reader->table.chunk_count);
+        "a record refers to chunk %u, but the table has %u chunks", number, reader->table.chunk_count);
   const sbfi_packed_chunk *chunk = &reader->table.chunks[number];
   if (reader->used[number])
-    return fault(reader, SBF_CODE_PACKED_RECORD, number, "chunk %u is referred to twice", number);
+    return fault(reader, SBF_CODE_PACKED_RECORD, number, "records refer to chunk %u twice", number);
   if (chunk->kind != wanted->kind || chunk->owner != wanted->owner || chunk->level != wanted->level ||
       chunk->field != wanted->field || chunk->list != wanted->list)
     return fault(reader, SBF_CODE_PACKED_RECORD, number,
-        "chunk %u is %s, field %u.%u, but is referred to as %s, field %u.%u", number,
+        "chunk %u is %s, field %u.%u, but a record refers to it as %s, field %u.%u", number,
         sbfi_packed_chunk_name(chunk).text, chunk->field, chunk->list, sbfi_packed_chunk_name(wanted).text,
         wanted->field, wanted->list);
   reader->used[number] = 1;
@@ -152,8 +152,9 @@ sbf_status sbfi_packed_fetch_list(
   const sbfi_packed_chunk *c = &reader->table.chunks[number];
   const uint8_t *stored = reader->bytes + c->offset;
   if (c->stride != sbfi_item_size(field))
-    return fault(reader, SBF_CODE_PACKED_RECORD, number, "chunk %u holds items of %u bytes, `%s` has %u",
-        number, c->stride, field->name, sbfi_item_size(field));
+    return fault(reader, SBF_CODE_PACKED_RECORD, number,
+        "chunk %u has items of %u bytes, but those of `%s` have %u", number, c->stride, field->name,
+        sbfi_item_size(field));
   if (c->count > reader->options.limits.list_items)
     return fault(reader, SBF_CODE_LIST_TOO_LONG, number,
         "`%s` has %llu items, more than the limit of %u: raise it if the file is trusted", field->name,
@@ -185,7 +186,7 @@ sbf_status sbfi_packed_fetch_record(sbfi_packed_reader *reader, uint32_t number,
   const sbfi_packed_chunk *c = &reader->table.chunks[number];
   *record = (sbfi_packed_record){.number = number};
   if (c->stride != 1 || c->filter != SBFI_FILTER_NONE)
-    return fault(reader, SBF_CODE_PACKED_RECORD, number, "chunk %u (%s) is a record, but made of items",
+    return fault(reader, SBF_CODE_PACKED_RECORD, number, "chunk %u (%s) is a record, but is stored as items",
         number, sbfi_packed_chunk_name(c).text);
   sbf_status status = admit(reader, number);
   if (status != SBF_OK) return status;

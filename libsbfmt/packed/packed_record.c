@@ -84,13 +84,13 @@ static sbf_status read_value(const reading *r, const span *s, const sbfi_field *
   const uint8_t *from = s->record->at + s->at;
   char *to = r->object + field->offset;
   if (s->end - s->at != (size_t)field->width * 4)
-    return fault(r, SBF_CODE_PACKED_RECORD, s, field, "`%s` has %zu bytes where %u belong", field->name,
+    return fault(r, SBF_CODE_PACKED_RECORD, s, field, "`%s` has %zu bytes instead of %u", field->name,
         s->end - s->at, field->width * 4);
   if (field->type == SBFI_BOOL) {
     uint32_t value = sbfi_get_u32(from);
     if (value > 1)
-      return fault(
-          r, SBF_CODE_PACKED_RECORD, s, field, "`%s` is %u, neither false nor true", field->name, value);
+      return fault(r, SBF_CODE_PACKED_RECORD, s, field, "`%s` is %u, which is neither false nor true",
+          field->name, value);
     *(bool *)to = value != 0;
     return SBF_OK;
   }
@@ -105,7 +105,7 @@ static sbf_status read_text(const reading *r, const span *s, const sbfi_field *f
   const char *from = (const char *)s->record->at + s->at, *text = "";
   size_t length = s->end - s->at;
   if (length && memchr(from, 0, length))
-    return fault(r, SBF_CODE_BAD_TEXT, s, field, "`%s` holds a character NUL: remove it", field->name);
+    return fault(r, SBF_CODE_BAD_TEXT, s, field, "`%s` has a NUL character: remove it", field->name);
   if (length && !(text = sbfi_arena_string(r->reader->arena, from, length))) return no_memory(r, s, field);
   sbfi_set_pointer(r->object, field, text);
   return SBF_OK;
@@ -126,8 +126,8 @@ static sbf_status read_list(
   size_t size = s->end - s->at, item_size = sbfi_item_size(field), count = size / item_size;
   if (r->part->without_lists || size == 0) return SBF_OK;
   if (size % item_size)
-    return fault(r, SBF_CODE_PACKED_RECORD, s, field, "`%s` has %zu bytes, no multiple of %zu", field->name,
-        size, item_size);
+    return fault(r, SBF_CODE_PACKED_RECORD, s, field, "`%s` has %zu bytes, which is not a multiple of %zu",
+        field->name, size, item_size);
   if (count > r->reader->options.limits.list_items)
     return fault(r, SBF_CODE_LIST_TOO_LONG, s, field,
         "`%s` has %zu items, more than the limit of %u: raise it if the file is trusted", field->name, count,
@@ -192,7 +192,7 @@ static sbf_status make_children(
     const reading *r, span *s, const sbfi_field *field, size_t min, char **children, uint32_t *count) {
   *count = 0;
   if (s->end - s->at < 4)
-    return fault(r, SBF_CODE_PACKED_RECORD, s, field, "the count of `%s` is cut short", field->name);
+    return fault(r, SBF_CODE_PACKED_RECORD, s, field, "the count of `%s` is truncated", field->name);
   uint32_t stated = read_u32(s);
   if (stated > (s->end - s->at) / min)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "%u `%s` do not fit into %zu bytes", stated,
@@ -214,7 +214,7 @@ static sbf_status make_children(
 /* Reads a size and splits a piece of that size off the front of `s`. */
 static sbf_status read_piece(const reading *r, span *s, const sbfi_field *field, span *piece) {
   if (s->end - s->at < 4)
-    return fault(r, SBF_CODE_PACKED_RECORD, s, field, "one of the `%s` is cut short", field->name);
+    return fault(r, SBF_CODE_PACKED_RECORD, s, field, "one of the `%s` is truncated", field->name);
   uint32_t size = read_u32(s);
   if (size > s->end - s->at)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "one of the `%s` has %u bytes, but only %zu are left",
@@ -226,8 +226,8 @@ static sbf_status read_piece(const reading *r, span *s, const sbfi_field *field,
 
 static sbf_status check_end(const reading *r, const span *s, const sbfi_field *field) {
   if (s->at == s->end) return SBF_OK;
-  return fault(r, SBF_CODE_PACKED_RECORD, s, field, "%zu bytes are left over behind `%s`", s->end - s->at,
-      field->name);
+  return fault(
+      r, SBF_CODE_PACKED_RECORD, s, field, "%zu bytes are left over after `%s`", s->end - s->at, field->name);
 }
 
 static sbf_status read_records(const reading *r, span s, const sbfi_field *field) {
@@ -277,7 +277,7 @@ static sbf_status read_parts(const reading *r, span s, const sbfi_field *field) 
     char *child = children + (size_t)i * field->element->struct_size;
     span label;
     if (s.end - s.at < 4)
-      return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "one of the `%s` is cut short", field->name);
+      return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "one of the `%s` is truncated", field->name);
     uint32_t number = read_u32(&s);
     status = read_piece(r, &s, field, &label);
     if (status == SBF_OK) status = read_child(r, label, field, i, child, LABEL_FIELDS);
@@ -317,8 +317,8 @@ static sbfi_packed_form form_of(const sbfi_field *field, bool outline, uint16_t 
 static sbf_status read_field(const reading *r, span s, const sbfi_field *field, uint16_t stated) {
   sbfi_packed_form form = form_of(field, r->reader->has_outline, stated);
   if (form != stated)
-    return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "`%s` is written in form %u where form %u belongs",
-        field->name, stated, (unsigned)form);
+    return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "`%s` has form %u instead of form %u", field->name,
+        stated, (unsigned)form);
   switch (form) {
   case SBFI_FORM_VALUE:
     return read_value(r, &s, field);
@@ -350,7 +350,7 @@ static sbf_status check_required(const reading *r, const span *s, field_set set,
   for (uint32_t i = 0; i < element->field_count; i++) {
     const sbfi_field *field = &element->fields[i];
     if (field->required && is_in(set, field) && !(seen >> i & 1))
-      return fault(r, SBF_CODE_REQUIRED_MISSING, s, field, "`%s` must be given", field->name);
+      return fault(r, SBF_CODE_REQUIRED_MISSING, s, field, "`%s` is required", field->name);
   }
   return SBF_OK;
 }
@@ -361,17 +361,17 @@ static sbf_status read_fields(const reading *r, span s, field_set set) {
   uint32_t last = 0;
   uint64_t seen = 0;
   if (r->part->depth > r->reader->options.limits.depth)
-    return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL,
-        "elements lie inside each other deeper than the limit of %u", r->reader->options.limits.depth);
+    return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "elements are nested deeper than the limit of %u",
+        r->reader->options.limits.depth);
   while (s.at < s.end) {
     if (s.end - s.at < SBFI_PACKED_FIELD_SIZE)
-      return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "a field is cut short");
+      return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "a field is truncated");
     const uint8_t *head = s.record->at + s.at;
     uint16_t number = sbfi_get_u16(head), form = sbfi_get_u16(head + 2);
     uint32_t size = sbfi_get_u32(head + 4);
     size_t padded = (size_t)size + (-(size_t)size & 3), left = s.end - s.at - SBFI_PACKED_FIELD_SIZE;
     if (number <= last)
-      return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "field %u stands behind field %u", number, last);
+      return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "field %u comes after field %u", number, last);
     if (size > left || padded > left)
       return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "field %u has %u bytes, but only %zu are left",
           number, size, left);
@@ -379,14 +379,14 @@ static sbf_status read_fields(const reading *r, span s, field_set set) {
     bool known = number <= element->field_count && is_in(set, &element->fields[number - 1]);
     if (known && element->fields[number - 1].since_minor > r->reader->table.header.minor)
       return fault(r, SBF_CODE_VERSION_FIELD, &s, &element->fields[number - 1],
-          "`%s` is of version 1.%u, and the file states 1.%u", element->fields[number - 1].name,
+          "`%s` needs version 1.%u, but the file states 1.%u", element->fields[number - 1].name,
           element->fields[number - 1].since_minor, r->reader->table.header.minor);
     if (known) {
       sbf_status status = read_field(r, payload, &element->fields[number - 1], form);
       if (status != SBF_OK) return status;
       seen |= (uint64_t)1 << (number - 1);
     } else if (!r->reader->table.newer || number <= element->field_count) {
-      return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "field %u has no place here", number);
+      return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "field %u is not allowed here", number);
     } else if (r->reader->left_out++ == 0) {
       char path[120];
       sbfi_element_path_print(r->path, NULL, path, sizeof path);

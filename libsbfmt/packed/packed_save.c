@@ -27,7 +27,7 @@ static sbf_status diagnose_plan(sbfi_planned planned, sbf_diagnostic *error) {
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to pack the asset");
   default:
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "the asset has a part whose record takes more than 4 GiB, or too many parts: divide it");
+        "the asset has too many parts, or a part whose record exceeds 4 GiB: divide it");
   }
 }
 

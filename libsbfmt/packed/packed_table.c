@@ -144,7 +144,7 @@ static sbf_status magic_fault(sbf_diagnostic *error, const uint8_t *bytes, size_
   while (same < size && same < 8 && bytes[same] == (uint8_t)magic[same]) same++;
   if (same == size)
     return fault(error, SBF_CODE_PACKED_TRUNCATED, size,
-        "the file ends after %zu bytes: copy it again from where it is whole", size);
+        "the file ends after %zu bytes: copy it again from an intact file", size);
   if (same >= 4)
     return fault(error, SBF_CODE_PACKED_MAGIC, same,
         "line ends were converted, as by a transfer in text mode: copy the file again in binary mode");
@@ -166,7 +166,7 @@ static sbf_status check_header(
   if (size < 8 || memcmp(bytes, SBFI_PACKED_MAGIC, 8) != 0) return magic_fault(error, bytes, size);
   if (size < SBFI_PACKED_HEADER_SIZE)
     return fault(error, SBF_CODE_PACKED_TRUNCATED, size,
-        "the file ends inside its header, after %zu bytes: copy it again from where it is whole", size);
+        "the file ends inside its header, after %zu bytes: copy it again from an intact file", size);
   if (sbfi_crc32(bytes, HEADER_CRC) != sbfi_get_u32(bytes + HEADER_CRC))
     return fault(error, SBF_CODE_PACKED_CRC, HEADER_CRC,
         "the header does not match its checksum: the file is damaged, copy it again");
@@ -174,22 +174,22 @@ static sbf_status check_header(
   if (h->min_major > SBFI_PACKED_MAJOR ||
       (h->min_major == SBFI_PACKED_MAJOR && h->min_minor > SBFI_PACKED_MINOR))
     return fault(error, SBF_CODE_VERSION_TOO_NEW, HEADER_MIN_MAJOR,
-        "the file needs a reader of version %u.%u, this one is of %d.%d: update the library", h->min_major,
-        h->min_minor, SBFI_PACKED_MAJOR, SBFI_PACKED_MINOR);
+        "the file needs a reader of version %u.%u, this one has version %d.%d: update the library",
+        h->min_major, h->min_minor, SBFI_PACKED_MAJOR, SBFI_PACKED_MINOR);
   if (h->major != SBFI_PACKED_MAJOR || h->min_major != SBFI_PACKED_MAJOR || (h->min_minor > h->minor))
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_MAJOR,
-        "the header states version %u.%u for readers from %u.%u on, which no writer does", h->major, h->minor,
-        h->min_major, h->min_minor);
+        "the header states version %u.%u for readers from %u.%u, which no writer does: the file is damaged",
+        h->major, h->minor, h->min_major, h->min_minor);
   table->newer = h->minor > SBFI_PACKED_MINOR;
   if (!table->newer && !is_zero(bytes + HEADER_RESERVED, HEADER_CRC - HEADER_RESERVED))
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_RESERVED, "reserved bytes of the header are not zero");
   if (h->file_size > size)
     return fault(error, SBF_CODE_PACKED_TRUNCATED, size,
-        "the file has %zu of its %llu bytes: copy it again from where it is whole", size,
+        "the file has %zu of its %llu bytes: copy it again from an intact file", size,
         (unsigned long long)h->file_size);
   if (h->file_size < size)
     return fault(error, SBF_CODE_PACKED_TABLE, h->file_size,
-        "the file has %zu bytes, but its header says %llu: something was added to it", size,
+        "the file has %zu bytes, but its header says %llu: something was appended, copy it again", size,
         (unsigned long long)h->file_size);
   return SBF_OK;
 }
@@ -197,11 +197,12 @@ static sbf_status check_header(
 static sbf_status check_table_offset(const sbfi_packed_header *h, sbf_diagnostic *error) {
   if (h->table_size != (uint64_t)h->chunk_count * SBFI_PACKED_ENTRY_SIZE || h->chunk_count == 0)
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_TABLE_SIZE,
-        "a table of %llu bytes does not hold %u entries", (unsigned long long)h->table_size, h->chunk_count);
+        "a table of %llu bytes is too small for %u entries", (unsigned long long)h->table_size,
+        h->chunk_count);
   if (h->table_offset < SBFI_PACKED_HEADER_SIZE || h->table_offset % SBFI_PACKED_ALIGN ||
       h->table_offset > h->file_size || h->table_size > h->file_size - h->table_offset)
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_TABLE_OFFSET,
-        "the table of %llu bytes at %llu does not lie inside the file at a multiple of %d",
+        "the table of %llu bytes at %llu is not inside the file at a multiple of %d",
         (unsigned long long)h->table_size, (unsigned long long)h->table_offset, SBFI_PACKED_ALIGN);
   return SBF_OK;
 }
@@ -221,16 +222,16 @@ static sbf_status check_chunk(const sbfi_packed_table *table, uint32_t number, c
   uint64_t at = h->table_offset + (uint64_t)number * SBFI_PACKED_ENTRY_SIZE;
   if (c->offset < SBFI_PACKED_HEADER_SIZE || c->offset % SBFI_PACKED_ALIGN)
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_OFFSET,
-        "chunk %u (%s) begins at %llu, which is no multiple of %d behind the header", number,
+        "chunk %u (%s) begins at %llu, which is not a multiple of %d after the header", number,
         sbfi_packed_chunk_name(c).text, (unsigned long long)c->offset, SBFI_PACKED_ALIGN);
   if (c->offset > h->file_size || c->stored_size > h->file_size - c->offset)
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_STORED_SIZE,
-        "chunk %u (%s) of %llu bytes at %llu does not lie inside the file", number,
-        sbfi_packed_chunk_name(c).text, (unsigned long long)c->stored_size, (unsigned long long)c->offset);
+        "chunk %u (%s) of %llu bytes at %llu is not inside the file", number, sbfi_packed_chunk_name(c).text,
+        (unsigned long long)c->stored_size, (unsigned long long)c->offset);
   if (c->offset < previous_end ||
       (c->offset < h->table_offset + h->table_size && c->offset + c->stored_size > h->table_offset))
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_OFFSET,
-        "chunk %u (%s) lies over another one or over the table, or not in the order of the table", number,
+        "chunk %u (%s) overlaps another one or the table, or is out of the order of the table", number,
         sbfi_packed_chunk_name(c).text);
   if (c->stride == 0 || c->count > UINT64_MAX / c->stride || c->raw_size != c->count * c->stride)
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_COUNT,
@@ -238,26 +239,26 @@ static sbf_status check_chunk(const sbfi_packed_table *table, uint32_t number, c
         (unsigned long long)c->count, c->stride, (unsigned long long)c->raw_size);
   if (!table->newer && ((c->flags & ~SBFI_CHUNK_FLAGS) || !is_zero(entry + ENTRY_RESERVED, 4)))
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_FLAGS,
-        "chunk %u (%s): flags or reserved bytes are set that this version does not have", number,
+        "chunk %u (%s) has flags or reserved bytes that this version does not know", number,
         sbfi_packed_chunk_name(c).text);
   if (!sbfi_packed_kind_is_known(c->kind) && c->kind != SBFI_PACKED_OUTLINE) {
     if (!(c->flags & SBFI_CHUNK_CRITICAL)) return SBF_OK;
     return fault(error, SBF_CODE_PACKED_UNKNOWN_PART, at,
-        "chunk %u is critical and of the unknown kind %s: the file needs a newer library", number,
+        "chunk %u is critical and has the unknown kind %s: update the library", number,
         sbfi_kind_print(c->kind).text);
   }
   if (c->filter >= SBFI_FILTER_COUNT || c->codec >= SBFI_CODEC_COUNT)
     return fault(error, SBF_CODE_PACKED_CODEC, at + ENTRY_FILTER,
-        "chunk %u (%s) uses filter %u and codec %u, of which one is not known: update the library", number,
+        "chunk %u (%s) uses filter %u and codec %u, one of which is unknown: update the library", number,
         sbfi_packed_chunk_name(c).text, c->filter, c->codec);
   if (c->codec == SBFI_CODEC_NONE ? c->filter != SBFI_FILTER_NONE || c->stored_size != c->raw_size
                                   : c->raw_size == 0)
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_CODEC,
-        "chunk %u (%s): %llu bytes stored as %llu do not go with its filter and codec", number,
+        "chunk %u (%s): %llu bytes stored as %llu contradict its filter and codec", number,
         sbfi_packed_chunk_name(c).text, (unsigned long long)c->raw_size, (unsigned long long)c->stored_size);
   if (c->filter != SBFI_FILTER_NONE && (c->stride % 4 || c->stride > 16))
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_STRIDE,
-        "chunk %u (%s): its filter is for items of 4, 8, 12 or 16 bytes, not of %u", number,
+        "chunk %u (%s): its filter needs items of 4, 8, 12 or 16 bytes, not of %u", number,
         sbfi_packed_chunk_name(c).text, c->stride);
   return SBF_OK;
 }

@@ -27,7 +27,7 @@ static sbf_status run(sbfi_repair *m, sbf_diagnostic *error) {
     passes[i](m);
     sbfi_arena_free(&m->scratch);
   }
-  if (m->out_of_memory) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while mending");
+  if (m->out_of_memory) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while repairing");
   if (sbf_asset_check(m->asset, store_first, &first, 1)) {
     if (error) *error = first;
     return sbf_code_find(first.code)->fault;

@@ -261,13 +261,13 @@ static void on_doctype(void *user, const xmlChar *name, const xmlChar *external,
   (void)name, (void)external, (void)system;
   parse *p = user;
   fail(p, SBF_CODE_XML_DOCTYPE, line_of(p),
-      "a DOCTYPE stands here: remove it, the format needs none and has no entities");
+      "found a DOCTYPE: remove it, the format has neither a DOCTYPE nor entities");
 }
 
 static xmlEntityPtr on_entity(void *user, const xmlChar *name) {
   parse *p = user;
   fail(p, SBF_CODE_XML_DOCTYPE, line_of(p),
-      "the entity &%.60s; is none of XML's own five: write the character itself", (const char *)name);
+      "the entity &%.60s; is not one of XML's five: write the character itself", (const char *)name);
   return NULL;
 }
 
@@ -301,7 +301,7 @@ static const char *advice_of(sbf_code code) {
   case SBF_CODE_NOT_UTF8:
     return "the text is not valid UTF-8: save the file in that encoding";
   case SBF_CODE_XML_DOCTYPE:
-    return "an entity that is none of XML's own five: write the character itself";
+    return "an entity is not one of XML's five: write the character itself";
   default:
     return "not well-formed XML";
   }

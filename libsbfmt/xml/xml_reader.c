@@ -155,18 +155,17 @@ static bool fail_list(reader *r, sbfi_xml_fault fault) {
   bool bytes = list->field->item == SBFI_ITEM_U8;
   switch (fault) {
   case SBFI_XML_NOT_FINITE:
-    fail(r, SBF_CODE_VALUE_NOT_FINITE, NULL, "`%s` holds `%s`: every number must be finite", name,
-        list->wrong);
+    fail(r, SBF_CODE_VALUE_NOT_FINITE, NULL, "`%s` has `%s`: every number must be finite", name, list->wrong);
     break;
   case SBFI_XML_OUT_OF_RANGE:
-    fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, NULL, "`%s` holds `%s`, which is not %s", name, list->wrong,
+    fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, NULL, "`%s` has `%s`, which is not %s", name, list->wrong,
         name_of_scalar(list->field));
     break;
   case SBFI_XML_NOT_WHOLE:
     if (bytes)
       return fail(
-          r, SBF_CODE_XML_BAD_VALUE, NULL, "`%s` ends inside a group of base64: it was cut short", name);
-    return fail(r, SBF_CODE_WRONG_LENGTH, NULL, "`%s` holds %zu numbers, not a multiple of %u", name,
+          r, SBF_CODE_XML_BAD_VALUE, NULL, "`%s` ends inside a group of base64: it was truncated", name);
+    return fail(r, SBF_CODE_WRONG_LENGTH, NULL, "`%s` has %zu numbers, not a multiple of %u", name,
         list->scalars.count, list->field->width);
   case SBFI_XML_TOO_LONG:
     return fail(r, SBF_CODE_LIST_TOO_LONG, NULL, "`%s` has more than the limit of %u items", name,
@@ -175,7 +174,7 @@ static bool fail_list(reader *r, sbfi_xml_fault fault) {
     return fail_memory(r);
   default:
     fail(r, SBF_CODE_XML_BAD_VALUE, NULL,
-        bytes ? "`%s` holds `%s`, which is no base64" : "`%s` holds `%s` where a number belongs", name,
+        bytes ? "`%s` has `%s`, which is not base64" : "`%s` has `%s` instead of a number", name,
         list->wrong);
     break;
   }
@@ -195,8 +194,8 @@ static bool fail_number(reader *r, const sbfi_field *field, sbfi_xml_fault fault
     return fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, field, "`%s` is `%.*s`, which is not %s", field->name, length,
         word.at, name_of_scalar(field));
   default:
-    return fail(r, SBF_CODE_XML_BAD_VALUE, field, "`%s` is `%.*s` where a number belongs", field->name,
-        length, word.at);
+    return fail(
+        r, SBF_CODE_XML_BAD_VALUE, field, "`%s` is `%.*s` instead of a number", field->name, length, word.at);
   }
 }
 
@@ -212,7 +211,7 @@ static bool read_floats(reader *r, const sbfi_field *field, sbfi_span value, voi
     count++;
   }
   if (count != field->width)
-    return fail(r, SBF_CODE_XML_BAD_VALUE, field, "`%s` holds %u numbers where %u belong", field->name, count,
+    return fail(r, SBF_CODE_XML_BAD_VALUE, field, "`%s` has %u numbers instead of %u", field->name, count,
         field->width);
   memcpy(to, values, count * sizeof *values);
   return true;
@@ -230,7 +229,7 @@ static bool read_enum(reader *r, const sbfi_field *field, sbfi_span value, void 
       sbfi_set_integer(object, field, (int32_t)i);
       return true;
     }
-  return fail(r, SBF_CODE_ENUM_OUT_OF_RANGE, field, "`%s` is `%.*s`: give one of %s", field->name,
+  return fail(r, SBF_CODE_ENUM_OUT_OF_RANGE, field, "`%s` is `%.*s`: use one of %s", field->name,
       (int)sbfi_utf8_cut(value.at, value.length, 60), value.at, sbfi_xml_words_of(field).at);
 }
 
@@ -288,7 +287,7 @@ static bool unknown_attribute(reader *r, const char *name) {
   if (self->kind == OPEN_OBJECT) {
     if (sbfi_element_field(self->element, name) && self->field && self->field->by &&
         strcmp(self->field->by, name) == 0)
-      fail(r, SBF_CODE_XML_UNKNOWN_ATTRIBUTE, NULL, "`%.60s` is said by the element's name: remove it", name);
+      fail(r, SBF_CODE_XML_UNKNOWN_ATTRIBUTE, NULL, "the element's name states `%.60s`: remove it", name);
     else if (sbfi_xml_find_element(self->element, name))
       fail(r, SBF_CODE_XML_UNKNOWN_ATTRIBUTE, NULL, "`%.60s` is an element: write it between the tags", name);
     else
@@ -307,7 +306,7 @@ static sbfi_span value_of(const sbfi_xml_attribute *attribute) {
 /* All readers treat a file alike: a later reader also rejects what the stated version lacks. */
 static bool refuse_later(reader *r, const sbfi_field *field) {
   return fail(r, SBF_CODE_VERSION_FIELD, field,
-      "`%s` is of version 1.%u, and the file states %.20s: state 1.%u", field->name, field->since_minor,
+      "`%s` needs version 1.%u, but the file states %.20s: state 1.%u", field->name, field->since_minor,
       r->asset->version, field->since_minor);
 }
 
@@ -340,7 +339,7 @@ static bool check_attributes(reader *r) {
   if (!holder || !holder->fixed_name) return true;
   const sbfi_field *fixed = sbfi_element_field(self->element, holder->fixed_name);
   return sbfi_get_integer(self->object, fixed) == holder->fixed_value ||
-         fail(r, SBF_CODE_FIXED_VALUE, fixed, "`%s` must be `%s` in this place", fixed->name,
+         fail(r, SBF_CODE_FIXED_VALUE, fixed, "`%s` must be `%s` here", fixed->name,
              fixed->values[holder->fixed_value]);
 }
 
@@ -382,11 +381,12 @@ static bool begin_root(reader *r, const char *name, const sbfi_xml_attribute *at
     break;
   case SBFI_VERSION_TOO_NEW:
     return fail(r, SBF_CODE_VERSION_TOO_NEW, version,
-        "the file is of version %.20s, this library reads %s: update it", r->asset->version,
+        "the file has version %.20s, this library reads %s: update it", r->asset->version,
         SBF_FORMAT_VERSION);
   case SBFI_VERSION_MALFORMED:
     return fail(r, SBF_CODE_XML_BAD_VALUE, version,
-        "`version` is `%.20s`, not of the form major.minor: write %s", r->asset->version, SBF_FORMAT_VERSION);
+        "`version` is `%.20s`, which does not have the form major.minor: write %s", r->asset->version,
+        SBF_FORMAT_VERSION);
   }
   return read_attributes(r, attributes, count) && check_attributes(r);
 }
@@ -431,7 +431,7 @@ static bool append_given(reader *r, const sbfi_xml_attribute *given) {
   uint32_t number;
   if (sbfi_parse_u32(given->value, given->length, &number) != SBFI_NUMBER_READ ||
       number >= r->options->given_list_count)
-    return fail(r, SBF_CODE_XML_BAD_VALUE, NULL, "`given` names none of the %u lists that were handed over",
+    return fail(r, SBF_CODE_XML_BAD_VALUE, NULL, "`given` does not name one of the %u lists that were passed",
         r->options->given_list_count);
   sbfi_xml_fault fault = sbfi_xml_list_append_given(&r->list, &r->options->given_lists[number]);
   return (!fault || fail_list(r, fault)) && (fits_memory(r) || fail_memory(r));
@@ -450,17 +450,17 @@ static bool begin_plain(reader *r, open_kind kind, const sbfi_field *field,
 static bool unknown_element(reader *r, const char *name) {
   const open_element *around = top(r);
   if (around->kind == OPEN_LIST || around->kind == OPEN_TEXT) {
-    fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%.60s> stands inside `%s`, which holds only text", name,
+    fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%.60s> is inside `%s`, which can contain only text", name,
         around->field->name);
   } else if (r->newer_minor) {
     return leave_out(r, "/", name) && push(r, OPEN_SKIPPED, NULL) != NULL;
   } else if (around->kind == OPEN_WRAPPER) {
-    fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%s> holds no <%.60s>%s", around->field->wrapper, name,
+    fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%s> cannot contain <%.60s>%s", around->field->wrapper, name,
         sbfi_xml_suggest_child(around->field, name).at);
   } else if (sbfi_xml_find_attribute(around->element, around->field, name)) {
     fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "`%.60s` is an attribute: write it inside the tag", name);
   } else {
-    fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%s> holds no <%.60s>%s", around->element->xml, name,
+    fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%s> cannot contain <%.60s>%s", around->element->xml, name,
         sbfi_xml_suggest_element(around->element, name).at);
   }
   return extend_path(r, "/", name);
@@ -475,7 +475,7 @@ static bool begin_in_object(
   uint64_t bit = (uint64_t)1 << (field - around->element->fields);
   bool many = field->type == SBFI_MANY && !field->wrapper;
   if (around->seen & bit && !many)
-    return fail(r, SBF_CODE_XML_REPEATED, field, "<%.60s> stands here a second time: join the two", name);
+    return fail(r, SBF_CODE_XML_REPEATED, field, "<%.60s> occurs here a second time: merge the two", name);
   around->seen |= bit;
   if (field->type == SBFI_LIST) return begin_plain(r, OPEN_LIST, field, attributes, count);
   if (field->type == SBFI_TEXT) return begin_plain(r, OPEN_TEXT, field, attributes, count);
@@ -487,8 +487,8 @@ static bool on_start(void *user, const char *name, const sbfi_xml_attribute *att
   reader *r = user;
   int32_t value;
   if (r->open.count >= r->options->limits.depth)
-    return fail(r, SBF_CODE_XML_TOO_DEEP, NULL, "<%.60s> lies deeper than the limit of %u elements", name,
-        r->options->limits.depth);
+    return fail(r, SBF_CODE_XML_TOO_DEEP, NULL, "<%.60s> is nested deeper than the limit of %u elements",
+        name, r->options->limits.depth);
   if (r->open.count == 0) return begin_root(r, name, attributes, count);
   switch (top(r)->kind) {
   case OPEN_OBJECT:
@@ -535,7 +535,7 @@ static bool on_text(void *user, const char *text, size_t length) {
       if (!sbfi_is_space(text[i])) {
         sbfi_span rest = {text + i, length - i}, line;
         sbfi_span_next_line(&rest, &line);
-        fail(r, SBF_CODE_XML_STRAY_TEXT, NULL, "text stands here where only elements belong: `%.*s`",
+        fail(r, SBF_CODE_XML_STRAY_TEXT, NULL, "found text where only elements are allowed: `%.*s`",
             (int)sbfi_utf8_cut(line.at, line.length, 40), line.at);
         r->error->line -= count_lines(text + i, length - i);
         return false;

@@ -29,11 +29,11 @@ static void report_unknown(resolver *r, const sbfi_element_path *path, const sbf
   if (r->findings->count == r->findings->capacity) return;
   sbf_diagnostic *diagnostic = &r->findings->at[r->findings->count++];
   if (other)
-    sbfi_diagnose(diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, which stands in %s, not in %s",
+    sbfi_diagnose(diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, which is in %s, not in %s",
         field->name, text, other->collection->name, field->target_name);
   else if (!*text)
     sbfi_diagnose(
-        diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` is empty: leave it out where nothing is meant", field->name);
+        diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` is empty: remove it if it refers to nothing", field->name);
   else
     sbfi_diagnose(diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, but no item of %s has that id%s",
         field->name, text, field->target_name, suggest_id(r->asset, field, text).at);

@@ -17,9 +17,8 @@ static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {
 static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level, sbf_diagnostic *error) {
   if (sbri_level_has_stepped_model(level)) return SBF_OK;
   return sbfi_diagnose(error, SBF_CODE_LEVEL_NOT_SIMULATED,
-      "body \"%s\": its level is of model %s and none is of springs, tetrahedra or regions, which the "
-      "runtime steps: "
-      "build the file with --springs",
+      "body \"%s\": its level has the model %s, and the runtime needs a level of springs, tetrahedra or "
+      "regions: build the file with --springs",
       body->id, sbf_elastic_model_name(level->model));
 }
 
@@ -49,8 +48,8 @@ static sbf_status check_ends(const sbr_model *model, const sbf_cross_springs *cr
     for (int end = 0; end < 2; end++)
       if (cross->ends.at[i].at[end] >= levels[end]->positions.count)
         return sbfi_diagnose(error, SBF_CODE_CROSS_SPRING_POINT,
-            "spring %u between \"%s\" and \"%s\" names point %u and the level has %u points: sbfmt validate "
-            "says more",
+            "spring %u between \"%s\" and \"%s\" names point %u, but the level has %u points: check the file "
+            "with sbfmt validate",
             i, model->bodies[cross->body_a].source->id, model->bodies[cross->body_b].source->id,
             cross->ends.at[i].at[end], levels[end]->positions.count);
   return SBF_OK;

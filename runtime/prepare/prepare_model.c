@@ -40,7 +40,7 @@ static sbf_status choose_scheme(
   const char *reason = asked ? sbri_scheme_refuses(asked, model, island) : NULL;
   if (reason)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "scheme %s cannot step body \"%s\", %s: ask for another, or for automatic",
+        "scheme %s cannot step body \"%s\", %s: use another scheme, or automatic",
         sbf_scheme_name(options->scheme), first->source->id, reason);
   if (!scheme) scheme = sbri_scheme_of(stated->scheme);
   if (!scheme || sbri_scheme_refuses(scheme, model, island)) scheme = &sbri_symplectic;
@@ -146,8 +146,8 @@ static sbf_status check_substeps(const sbr_model *model, sbf_diagnostic *error) 
     double w = sqrt(island->stability.fastest_rad_s * island->stability.fastest_rad_s +
                     island->stability.external_rad_s * island->stability.external_rad_s);
     return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
-        "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it more "
-        "mass, less stiffness or fewer points, or step it by position_based",
+        "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): use more "
+        "mass, less stiffness or fewer points, or the scheme position_based",
         body->id, (int)SBRI_MAX_SUBSTEPS, w);
   }
   return SBF_OK;

@@ -27,43 +27,37 @@ static bool warn(const sbr_model *model, const sbri_island *island, sbf_diagnost
   if ((double)island->stability.softened_shear < 1 - WARNED_BIAS ||
       (double)island->stability.softened_bulk < 1 - WARNED_BIAS)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
-        "body \"%s\" is too stiff for %d substeps a tick and is stepped as a softer one: where that is most, "
-        "with "
-        "%.2g of its bulk modulus and %.2g of its shear modulus; larger or fewer elements would need less",
+        "body \"%s\" is too stiff for %d substeps a tick and is softened: at the softest place to %.2g of "
+        "its bulk modulus and %.2g of its shear modulus; use larger or fewer elements",
         id, (int)SBRI_MAX_SUBSTEPS, (double)island->stability.softened_bulk,
         (double)island->stability.softened_shear);
   /* The required number includes a margin of a tenth. */
   else if (island->scheme == &sbri_symplectic && taken + taken / 8 < stable)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
-        "body \"%s\" is stepped by symplectic with %u substeps a tick and is stable with %u: it may burst; "
-        "leave "
-        "their number open",
+        "body \"%s\" is stepped by symplectic with %u substeps a tick but needs %u, so it may become "
+        "unstable: do not set the number of substeps",
         id, (unsigned)taken, (unsigned)stable);
   else if (island->scheme == &sbri_position_based && solid && taken < stable)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
-        "body \"%s\" is stepped by position_based with %u substeps a tick: it gives way %s too far; with %u "
-        "it is "
-        "within 2 %%",
+        "body \"%s\" is stepped by position_based with %u substeps a tick: it deforms %s too much; with %u "
+        "substeps the error is below 2 %%",
         id, (unsigned)taken, 2 * taken < stable ? "several times" : "by a tenth or more",
         (unsigned)(2 * stable));
   else if (island->scheme == &sbri_position_based && !solid && island->springs.count &&
            softness > WARNED_BIAS)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
         "body \"%s\" is stepped by position_based with %u substeps a tick: it bends about %.2g times as far "
-        "as its "
-        "springs say; with %u it is within 3 %%",
+        "as its springs should; with %u substeps the error is below 3 %%",
         id, (unsigned)taken, 1 + softness, (unsigned)(4 * stable));
   else if (island->scheme == &sbri_block_descent && solid)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
-        "body \"%s\" is stepped by block_descent: it rests where it should and moves as through honey, its "
-        "lowest "
-        "mode 79 %% slower on a bar; only symplectic and heun swing right",
+        "body \"%s\" is stepped by block_descent: its rest shape is right, but its motion is strongly "
+        "damped, on a bar the lowest mode is 79 %% slower; for right oscillations use symplectic or heun",
         id);
   else if (island->scheme == &sbri_block_descent)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
-        "body \"%s\" is stepped by block_descent: it rests where it should, and loses its swings by a "
-        "damping ratio "
-        "of 0.14 more than its own on a bar; only symplectic and heun swing right",
+        "body \"%s\" is stepped by block_descent: its rest shape is right, but its motion is damped, on a "
+        "bar by a damping ratio of 0.14 more than its own; for right oscillations use symplectic or heun",
         id);
   else
     return false;

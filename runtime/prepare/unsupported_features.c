@@ -63,15 +63,15 @@ uint32_t sbr_model_report_unsupported(
   listing l = {report, user, 0};
   const sbf_asset *asset = model->asset;
   body_counts n = count_bodies(model);
-  list(&l, n.gas, "gases inside bodies whose surface is open or follows bones", "they have no pressure");
-  list(&l, n.bending, "bending stiffnesses of sheets whose points the level does not have",
+  list(&l, n.gas, "gases in bodies with a surface that is open or follows bones", "they have no pressure");
+  list(&l, n.bending, "bending stiffnesses of sheets with points that the level does not have",
       "they bend freely");
-  list(&l, n.media, "pushes of a dense medium on bodies that follow bones", "only media_friction acts");
-  list(&l, n.self, "collisions with themselves of bodies whose surface points are not the level's",
-      "they pass through, unless the world's bodies meet (sbr_world_enable_body_contacts)");
-  list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
-      "other levels of their bodies act");
-  list(&l, n.beside, "tetrahedra, regions and jiggles beside a level's own model", "only that acts");
+  list(&l, n.media, "forces of a dense medium on bodies that follow bones", "only media_friction acts");
+  list(&l, n.self, "self-collisions of bodies with surface points that the level does not have",
+      "they pass through themselves, unless the world has body contacts (sbr_world_enable_body_contacts)");
+  list(&l, n.levels, "levels of a model other than springs, tetrahedra or regions",
+      "other levels of their bodies are used");
+  list(&l, n.beside, "tetrahedra, regions and jiggles in levels of another model", "only that acts");
   uint32_t weightless = 0;
   for (uint32_t i = 0; i < asset->rigid_bodies.count; i++)
     weightless +=

@@ -111,18 +111,19 @@ static bool make_height_field(sbr_shape *s, const sbr_height_field *f) {
 static const char *fault_of(const sbr_shape_definition *d) {
   bool sized = d->kind != SBR_SHAPE_SPHERE && d->kind != SBR_SHAPE_CAPSULE;
   const sbf_vec3 *h = &d->half_sizes;
-  if (!sized && !(d->radius > 0 && d->radius < FAR_M)) return "a radius is above 0";
-  if (d->kind == SBR_SHAPE_CAPSULE && !(h->y >= 0 && h->y < FAR_M)) return "half_sizes.y is not below 0";
+  if (!sized && !(d->radius > 0 && d->radius < FAR_M)) return "a radius must be above 0";
+  if (d->kind == SBR_SHAPE_CAPSULE && !(h->y >= 0 && h->y < FAR_M)) return "half_sizes.y must not be below 0";
   if (d->kind == SBR_SHAPE_BOX && !(h->x > 0 && h->y > 0 && h->z > 0 && h->x + h->y + h->z < FAR_M))
-    return "half_sizes are above 0";
+    return "half_sizes must be above 0";
   if (d->kind == SBR_SHAPE_HEIGHT_FIELD) {
     const sbr_height_field *f = d->heights;
     return !f || !f->heights_m || f->columns < 2 || f->rows < 2 || !(f->cell_m > 0) ||
                    (uint64_t)f->columns * f->rows > UINT32_MAX / 2
-               ? "a height field has two columns and rows at least, and a cell size above 0"
+               ? "a height field needs at least two columns and rows, and a cell size above 0"
                : NULL;
   }
-  if (d->kind == SBR_SHAPE_HOST) return d->host.distance ? NULL : "a host's shape has a distance";
+  if (d->kind == SBR_SHAPE_HOST)
+    return d->host.distance ? NULL : "a shape of the host needs a distance function";
   if (d->kind != SBR_SHAPE_HULL && d->kind != SBR_SHAPE_MESH) return NULL;
   bool of_points = d->kind == SBR_SHAPE_HULL && !d->triangle_count;
   if (!d->points || !d->point_count) return "there are no points";
@@ -130,10 +131,10 @@ static const char *fault_of(const sbr_shape_definition *d) {
   for (uint32_t i = 0; of_points && i < d->point_count; i++) {
     sbf_vec3 p = d->points[i];
     if (!(fabsf(p.x) < FAR_M && fabsf(p.y) < FAR_M && fabsf(p.z) < FAR_M))
-      return "a point is not a number below 10^9";
+      return "a point is not finite or exceeds 10^9";
   }
   for (size_t i = 0; i < 3 * (size_t)d->triangle_count; i++)
-    if (d->triangles[i] >= d->point_count) return "a triangle names a point beyond the last";
+    if (d->triangles[i] >= d->point_count) return "a triangle names a point that does not exist";
   return NULL;
 }
 
@@ -189,7 +190,7 @@ sbf_status sbr_shape_create(const sbf_allocator *allocator, const sbr_shape_defi
   }
   sbr_shape_destroy(s);
   return made ? sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-                    "sbr_shape_create: the hull encloses nothing: its points lie in a plane")
+                    "sbr_shape_create: the points of the hull are in one plane: add points outside it")
               : sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a shape");
 }
 

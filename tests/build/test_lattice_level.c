@@ -188,8 +188,8 @@ START_TEST(a_stray_vertex)
   sbf_asset *built = build((sbf_build_options){.cell_m = 0.1}, NULL);
   ck_assert_int_eq(count_noted(SBF_CODE_EMBEDDING_FAR), 1);
   const char *said = message_of(SBF_CODE_EMBEDDING_FAR);
-  ck_assert_ptr_nonnull(strstr(said, "vertex 98 of render mesh \"skin\" lies farther"));
-  ck_assert_ptr_nonnull(strstr(said, "2.8 m from that of soft body \"cube\": it is in no polygon"));
+  ck_assert_ptr_nonnull(strstr(said, "vertex 98 of render mesh \"skin\" lies more than a cell"));
+  ck_assert_ptr_nonnull(strstr(said, "2.8 m from the lattice of soft body \"cube\": it is in no polygon"));
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
   for (uint32_t e = 0; e < level->embeddings.count; e++) {
     sbf_vec4 w = level->embeddings.at[e].weights.at[count];
@@ -277,7 +277,7 @@ START_TEST(what_goes_wrong_is_said)
   fine.elements = 9000000;
   ck_assert_int_eq(sbf_build(asset, &fine, &built, NULL, &error), SBF_BAD_INPUT);
   ck_assert_int_eq(error.code, SBF_CODE_LATTICE_TOO_FINE);
-  ck_assert_ptr_nonnull(strstr(error.message, "all together"));
+  ck_assert_ptr_nonnull(strstr(error.message, "for all bodies"));
   fine.elements = 0;
   fine.cell_m = -1;
   ck_assert_int_eq(sbf_build(asset, &fine, &built, NULL, &error), SBF_FAILED);

@@ -59,7 +59,7 @@ class FilesThatBreakOthers(ProgramTest):
             gltf = {"asset": {"version": "2.0"}, "extensionsUsed": [name], "extensionsRequired": [name]}
             packed = write_bytes(self.path("packed.gltf"), json.dumps(gltf).encode())
             message = self.fails(BAD_INPUT, "convert", packed, "-o", self.path("out.sbf"))
-            self.assertIn(f"packed by {name}, which is not read: export them without compression", message)
+            self.assertIn(f"compressed by {name}, which is not supported: export them without compression", message)
             self.assert_empty_folder(but=["packed.gltf"])
 
     def test_an_old_file_stands_after_a_failure(self):
@@ -89,7 +89,7 @@ class BundlesThatAreNotValid(ProgramTest):
                     write_bytes(out, was)
                 message = self.fails(BAD_INPUT, "convert", self.path("o.ele"), "-o", out)
                 self.assertIn("[LATTICE_OVERLAP]", message)
-                self.assertIn("is not written", message)
+                self.assertIn("was not written", message)
                 self.assertEqual(os.path.exists(out) and read_bytes(out), was or False)
         self.assert_empty_folder(but=["o.node", "o.ele", "out.sbf", "out.sbfz"])
 
@@ -106,7 +106,7 @@ class BundlesThatAreNotValid(ProgramTest):
                               ("flat.obj", flat), ("lwo.obj", b"mtllib lwo.mtl\nusemtl m\n" + CUBE),
                               ("lwo.mtl", b"newmtl m\nmap_Kd /../LWO\n")):
             write_bytes(self.path(name), content)
-        for name, told in (("r.ele", "repeat the four points"), ("flat.obj", ""), ("lwo.obj", "IMPORT_IMAGE")):
+        for name, told in (("r.ele", "with the same four points"), ("flat.obj", ""), ("lwo.obj", "IMPORT_IMAGE")):
             with self.subTest(name):
                 out = self.path(name + ".sbf")
                 result = call("convert", self.path(name), "-o", out)
@@ -180,25 +180,25 @@ class Calls(ProgramTest):
             with self.subTest(arguments):
                 result = call(*arguments, "-o", self.folder)
                 self.assertEqual(result.status, FAILED)
-                self.assertRegex(result.err, r"\Asbfmt \w+: error: -o .*: that is a folder; name a file in it, as out\.\w+\n\Z")
+                self.assertRegex(result.err, r"\Asbfmt \w+: error: -o .* is a folder; name a file in it, for example out\.\w+\n\Z")
         self.assert_empty_folder(but=["cube.obj"])
 
     def test_options_that_would_do_nothing_are_refused(self):
         for option in (("--rig", self.file), ("--unit", "2"), ("--gait", "fly"), ("--soft", "*"), ("--weights", "match")):
             said = self.fails(FAILED, "convert", self.file, *option, "-o", self.path("x.sbf"))
             self.assertIn(f"is a bundle, which {option[0]} does not change", said)
-        self.assertIn("--of chooses what a point cache holds", self.fails(FAILED, "run", self.file, "--of", "skin"))
-        self.assertIn("'0.2' is one input too many", self.fails(FAILED, "run", self.file, "--drive", "0.5", "0.2"))
+        self.assertIn("--of selects the content of a point cache", self.fails(FAILED, "run", self.file, "--of", "skin"))
+        self.assertIn("unexpected input '0.2'", self.fails(FAILED, "run", self.file, "--drive", "0.5", "0.2"))
         self.assert_empty_folder()
 
     def test_remedies_of_unusual_inputs(self):
         self.assertIn("save its content to a file", self.fails(FAILED, "convert", "/dev/null", "-o", self.path("x.sbf")))
         comma = write_bytes(self.path("comma.obj"), CUBE.replace(b"v 1 0 0", b"v 1,0 0 0"))
-        self.assertIn('"1,0" stands where a line "v" needs a number: write it with a point',
+        self.assertIn('found "1,0" where a line "v" needs a number: use a decimal point',
                       self.fails(BAD_INPUT, "convert", comma, "-o", self.path("x.sbf")))
 
     def test_inputs_and_outputs_that_cannot_be_meant(self):
-        self.assertIn("standard input is not read", self.fails(FAILED, "info", "-"))
+        self.assertIn("standard input is not supported", self.fails(FAILED, "info", "-"))
         said = self.fails(FAILED, "unpack", self.file, "-o", self.path("a.sbf"), "-o", self.path("b.sbf"))
         self.assertIn("-o is given twice", said)
         self.assert_empty_folder()
@@ -408,7 +408,7 @@ class HalfACharacter(ProgramTest):
                                                              "0 0 0 0 0 0")).encode())
         said = self.good("convert", source, "-o", self.path("x.sbf")).err
         self.assertIn("UNIT_LOOKS_WRONG", said)
-        self.assertAlmostEqual(float(re.search(r"--unit (\S+) makes them", said).group(1)), 0.0254, delta=0.003)
+        self.assertAlmostEqual(float(re.search(r"--unit (\S+), which makes them", said).group(1)), 0.0254, delta=0.003)
         self.assertNotIn("UNIT_LOOKS_WRONG",
                          self.good("convert", source, "--unit", "0.0254", "-o", self.path("y.sbf")).err)
 

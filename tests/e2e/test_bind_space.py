@@ -251,7 +251,7 @@ class SharedFiles(ProgramTest):
         for path in shared_files():
             with self.subTest(file=os.path.relpath(path, shared(".."))):
                 out, drawn = self.path("out.sbf"), self.shown(Glb(path))
-                posed = "middle of a movement" in self.good("convert", path, *SOURCE_PARTS, "-o", out).err
+                posed = "in mid-motion" in self.good("convert", path, *SOURCE_PARTS, "-o", out).err
                 pairs = [(p, drawn[name][s]) for name, sources, points in placed_points(out) if name in drawn
                          for p, s in zip(points, sources) if drawn[name][s]]
                 self.assertTrue(pairs)

@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 from sbfmt_program import ROOT, ProgramTest, main, read_bytes
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
-SAID = re.compile(r"lattices of about (\d+) tetrahedra: (?:99 of 100 skin vertices within ([\d.e-]+) % of the size of what \d+ give, )?"
+SAID = re.compile(r"lattices of about (\d+) tetrahedra: (?:99 of 100 skin vertices within ([\d.e-]+) % of the size of the result with \d+, )?"
                   r"(\d+) element visits a tick of at most (\d+)")
 
 
@@ -73,7 +73,7 @@ class Budget(ProgramTest):
     def test_what_was_asked_for_stays_soft(self):
         made, _, err = self.converted("asked", "--soft", "tail3", "--budget", "10")
         self.assertEqual({s["bone"] for s in self.json_of("info", made)["sections"]}, {"tail3"})
-        self.assertIn("the parts that you asked for take more", err)
+        self.assertIn("the requested parts cost more", err)
         recipes = ElementTree.parse(made).getroot().findall("section_recipes/section_recipe")
         self.assertEqual([r.get("rigid") for r in recipes if r.get("proposed") != "true"], [None])
 
@@ -103,7 +103,7 @@ class Budget(ProgramTest):
     def test_skin_and_gait_that_take_more_are_told(self):
         made, (_, _, visits, most), err = self.converted("skin", "--budget", "10")
         self.assertGreater(visits, most)
-        self.assertIn("skin and gait alone take more", err)
+        self.assertIn("skin and gait alone cost more", err)
         self.assertEqual(self.json_of("info", made)["sections"], [])
 
     def test_bad_calls(self):

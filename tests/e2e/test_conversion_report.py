@@ -103,7 +103,7 @@ class Reports(ProgramTest):
         chosen = [m for kind in ("guessed", "notes") for m in report[kind] if m["code"] == "SOFTNESS_PROPOSED"]
         self.assertEqual(len(chosen), 2, "what is soft, and how fine it is")
         self.assertRegex(chosen[1]["message"], r"^sections follow lattices of about [0-9]+ tetrahedra: ")
-        self.assertRegex(chosen[0]["message"], r"[0-9] of 22 parts of the skin are soft, of .* kPa: .*; with their bones move ")
+        self.assertRegex(chosen[0]["message"], r"[0-9] of 22 parts of the skin are soft, with a modulus of .* kPa: .*; these move with their bones: ")
         self.assertNotIn("MATERIAL_GUESSED", {m["code"] for m in report["guessed"]})
 
     def test_many_findings_alike_are_printed_in_a_line_and_all_reported(self):

@@ -84,7 +84,7 @@ class Dialect2012(ProgramTest):
         self.assertEqual(float(root.find("soft_body").find("collision").get("particle_radius")), 0.0005)
 
     def test_a_rig_is_refused(self):
-        self.assertIn("skeleton of its own", self.fails(2, "convert", BAR, "--rig", BAR, "-o", self.path("a.sbf")))
+        self.assertIn("its own skeleton", self.fails(2, "convert", BAR, "--rig", BAR, "-o", self.path("a.sbf")))
 
     def test_faults_name_the_line(self):
         text = read_text(BAR).replace('y="0.2"', 'y="high"', 1)

@@ -60,11 +60,11 @@ class Replay(ProgramTest):
         self.record()
         whole = read_bytes(self.tape)
         write_bytes(self.tape, b"nothing of the kind")
-        self.assertIn("no recording", self.fails(1, "run", self.file, "--replay", self.tape))
+        self.assertIn("not a recording", self.fails(1, "run", self.file, "--replay", self.tape))
         write_bytes(self.tape, whole[:40] + b"\xff" * 40 + whole[80:])
         self.assertIn("damaged", self.fails(1, "run", self.file, "--replay", self.tape))
         self.assertIn("cannot be read", self.fails(2, "run", self.file, "--replay", self.path("none")))
-        self.assertIn("leave --drive", self.fails(2, "run", self.file, "--replay", self.tape, "--drive", "1,0"))
+        self.assertIn("leave out --drive", self.fails(2, "run", self.file, "--replay", self.tape, "--drive", "1,0"))
         nowhere = os.path.join(self.path("no"), "x.sbrec")
         self.assertIn("cannot be written", self.fails(2, "run", self.file, "--record", nowhere))
 

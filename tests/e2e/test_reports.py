@@ -201,7 +201,7 @@ class Fixes(ProgramTest):
                          [("TETRAHEDRON_INVERTED", 9, 1)])
         result = self.good("validate", "--fix", "-o", self.path("out.sbfz"),
                            os.path.join(INVALID, "tetrahedron_inverted.sbf"))
-        self.assertIn("inverted tetrahedra turned round: 1 [TETRAHEDRON_INVERTED]", result.out)
+        self.assertIn("inverted tetrahedra reordered: 1 [TETRAHEDRON_INVERTED]", result.out)
         self.good("info", self.path("out.sbfz"))
 
     def test_wrong_calls(self):

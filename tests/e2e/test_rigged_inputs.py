@@ -65,7 +65,7 @@ class RiggedInputs(ProgramTest):
             with self.subTest(name):
                 found, said = self.convert(obj, rig)
                 self.assertEqual(found, wanted)
-                self.assertIn(f"{len(wanted)} of the rig's own mesh, by place", said)
+                self.assertIn(f"{len(wanted)} from the same positions of the rig's mesh", said)
         found, _ = self.convert(obj_of({"hat": column.hat}), rig)
         self.assertEqual(found, column.wanted["hat"])
 
@@ -109,7 +109,7 @@ class RiggedInputs(ProgramTest):
                    "stranger": ([(x + 4, y, z) for x, y, z in tube(0, 2, 0.2, 20)[0]], tube(0, 2, 0.2, 20)[1])}
         found, said = self.convert(obj_of(objects), rig)
         self.assertEqual(found[:len(column.body[0])], column.wanted["body"])
-        self.assertIn("lies in the object 'stranger' or beside it", said)
+        self.assertIn("is inside or near the object 'stranger'", said)
         self.assertNotIn("RIG_OTHER_MESH", said)
         self.assertIn("RIG_OBJECT_APART", said)
         self.assertNotIn("object 'hat'", said)
@@ -127,13 +127,13 @@ class RiggedInputs(ProgramTest):
         barrel = obj_of({"barrel": ([(1.3 * x, y, 0.8 * z) for x, y, z in points], triangles)})
         _, said = self.convert(barrel, rig)
         self.assertIn("RIG_OTHER_MESH", said)
-        self.assertRegex(said, r"they are \d+ % of the mesh's size apart; its bones, of which \d+ % lie inside")
+        self.assertRegex(said, r"they are \d+ % of the mesh's size apart; its bones \(\d+ % of them inside")
         odd = variants.moved(barrel, 0.137)
         variants.write(odd, self.path("odd.obj"))
         os.remove(self.path("out.sbf"))
         refused = self.fails(1, "convert", self.path("odd.obj"), "--rig", rig, "-o", self.path("out.sbf"))
         self.assertIn("RIG_MISFIT", refused)
-        self.assertIn("which is no usual unit", refused)
+        self.assertIn("which is not a usual unit", refused)
         self.assertFalse(os.path.exists(self.path("out.sbf")))
         for obj in (barrel, odd, obj_of(column.objects())):
             _, said = self.convert(obj, rig, "--weights", "compute")
@@ -150,14 +150,14 @@ class RiggedInputs(ProgramTest):
         (points, triangles), objects = column.body, column.objects()
         objects["body"] = ([(1.08 * x, y, 1.08 * z) for x, y, z in points], triangles)
         _, said = self.convert(obj_of(objects), rig)
-        self.assertIn(f"{len(column.hat[0])} of the rig's own mesh, by place", said)
-        self.assertRegex(said, r"resembles the input, but half of the input's surface lies farther from it than \d")
+        self.assertIn(f"{len(column.hat[0])} from the same positions of the rig's mesh", said)
+        self.assertRegex(said, r"resembles the input, but half of the input's surface is farther from it than \d")
         self.assertIn("RIG_OTHER_MESH", said)
         _, said = self.convert(obj_of(objects), rig, "--weights", "transfer")
         self.assertNotIn("RIG_OTHER_MESH", said)
         for edited in (variants.jiggled(obj_of(column.objects()), 1, 0.004), variants.jiggled(obj_of(column.objects()))):
             _, said = self.convert(edited, rig)
-            self.assertIn("carried over from the nearest surface", said)
+            self.assertIn("from the nearest surface", said)
             self.assertNotIn("RIG_OTHER_MESH", said)
 
     def test_a_part_that_is_another_characters(self):
@@ -167,9 +167,9 @@ class RiggedInputs(ProgramTest):
         for radius, reported in ((0.3, False), (0.32, False), (0.36, True)):
             edited = {"body": tube(0, 2, 0.2, 12), "hat": tube(2.1, 2.5, radius, 7)}
             _, said = self.convert(obj_of(edited), rig)
-            self.assertIn("carried over from the nearest surface", said)
+            self.assertIn("from the nearest surface", said)
             self.assertEqual("RIG_OTHER_MESH" in said, reported, said)
-        self.assertRegex(said, r"and \d+ % of it farther than 1.5 %: it may be another character's")
+        self.assertRegex(said, r"and \d+ % of it farther than 1.5 %: it may belong to another character")
 
     def test_the_mesh_of_one_bone_is_another_characters(self):
         """A rig too small for joints to lie inside of anything."""
@@ -180,7 +180,7 @@ class RiggedInputs(ProgramTest):
         glb.node("plate", mesh=mesh, skin=glb.skin([joint], inverse_binds([at(0, 0, 0)], at(0, 0, 0))))
         rig = glb.write(self.path("rig.glb"))
         _, said = self.convert(obj_of(Column().objects()), rig)
-        self.assertIn("its bones may be another character's", said)
+        self.assertIn("its bones may belong to another character", said)
         self.assertIn("RIG_OTHER_MESH", said)
 
     def test_vertex_colours_change_no_weights(self):
@@ -205,7 +205,7 @@ class RiggedInputs(ProgramTest):
             stream.write("cstype bspline\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 0 0 0 1 1 1 1\nend\n")
         found, said = self.convert(self.path("free.obj"), rig)
         self.assertEqual(found, column.wanted["body"] + column.wanted["hat"])
-        self.assertIn("5 lines of kinds that make no polygon are passed over, the first is \"cstype\"", said)
+        self.assertIn("5 lines that do not define polygons are skipped, the first is \"cstype\"", said)
 
     def test_what_holds_no_polygon_says_what_to_export(self):
         rig = Column().glb.write(self.path("rig.glb"))
@@ -213,14 +213,14 @@ class RiggedInputs(ProgramTest):
             stream.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nend\n")
         with open(self.path("points.obj"), "w", encoding="ascii") as stream:
             stream.write("v 0 0 0\nv 1 0 0\nl 1 2\n")
-        for name, said in (("free.obj", "free-form curves and surfaces alone: export it as a polygon mesh"),
+        for name, said in (("free.obj", "it has only free-form curves and surfaces: export it as a polygon mesh"),
                            ("points.obj", "export polygons")):
             self.assertIn(said, self.fails(1, "convert", self.path(name), "--rig", rig, "-o", self.path("no.sbf")))
         for ending, text in ((".node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n"), (".ele", "1 4 0\n0 0 1 2 3\n")):
             with open(self.path("tets" + ending), "w", encoding="ascii") as stream:
                 stream.write(text)
         said = self.fails(2, "convert", self.path("tets.ele"), "--rig", rig, "-o", self.path("no.sbf"))
-        self.assertIn("holds tetrahedra alone: it cannot take a rig; give the surface as OBJ or PLY with --rig", said)
+        self.assertIn("has only tetrahedra and cannot use a rig: convert the surface as OBJ or PLY with --rig", said)
 
     def test_objects_named_as_bones_of_a_rig_without_a_mesh(self):
         """They are sections of those bones, whatever bone is nearest; the others are computed."""
@@ -229,7 +229,7 @@ class RiggedInputs(ProgramTest):
                    "other": box((2.2, -0.2, -0.2), (2.8, 0.2, 0.2))}
         found, said = self.convert(obj_of(objects), self.path("arm.bvh"))
         self.assertEqual(found, ["hand"] * 8 + ["fore"] * 8 + ["hand"] * 8)
-        self.assertIn("16 by the names of objects or bones, 8 computed from the bones", said)
+        self.assertIn("16 from the names of objects or bones, 8 computed from the bones", said)
 
     def test_a_piece_beside_a_rigid_part_follows_its_bone_whole(self):
         """Two stiff tubes, one on the other; the lower one was made longer, and its end lies on the upper one's side."""
@@ -244,7 +244,7 @@ class RiggedInputs(ProgramTest):
         longer = [(x, 1.03 * y, z) for x, y, z in low[0]], low[1]
         found, said = self.convert(obj_of({"lower": longer, "upper": high}), glb.write(self.path("rig.glb")))
         self.assertEqual(found, ["low"] * len(low[0]) + ["high"] * len(high[0]))
-        self.assertIn("carried over from the nearest surface", said)
+        self.assertIn("from the nearest surface", said)
 
     def test_limbs_in_another_pose_than_the_rigs(self):
         """A small part of an object may move with the bone that it touches, but not an arm."""
@@ -254,8 +254,8 @@ class RiggedInputs(ProgramTest):
             points, triangles = tube(4, 6, 0.2, rings)
             joined = variants.one_object(obj_of({**column.objects(), "beside": (points, triangles)}))
             found, said = self.convert(joined, rig)
-            self.assertIn(f"{len(points)} of the bone that their piece touches", said)
-            self.assertEqual(f"{len(points)} of {len(found)} points lie beside the mesh" in said, reported)
+            self.assertIn(f"{len(points)} from the bone that their piece touches", said)
+            self.assertEqual(f"{len(points)} of {len(found)} points are away from the mesh" in said, reported)
 
     def test_what_stands_on_a_joint_follows_one_bone(self):
         """A saddle that overlaps the skin of two bones: all of it hangs on the one that it touches most."""
@@ -272,7 +272,7 @@ class RiggedInputs(ProgramTest):
             for vertex in range(first, first + len(points)):
                 self.assertEqual(weights[vertex][0], {"high": 1.0})
             self.assertEqual(found[:len(column.body[0])], column.wanted["body"])
-            self.assertIn(f"{len(points)} of the bone that their piece touches", said)
+            self.assertIn(f"{len(points)} from the bone that their piece touches", said)
             self.assertNotIn("RIG_OBJECT_APART", said)
 
     def test_two_characters_in_one_object(self):
@@ -284,7 +284,7 @@ class RiggedInputs(ProgramTest):
             _, said = self.convert(variants.one_object(obj_of({**column.objects(), **more}), "both"), rig)
             self.assertEqual("RIG_OBJECT_APART" in said, apart > 0, said)
             if apart:
-                self.assertIn(f"{apart} of {2 + apart} shells of the object 'both' lie apart from the rig", said)
+                self.assertIn(f"{apart} of {2 + apart} shells of the object 'both' are apart from the rig", said)
                 self.assertIn("'both#3'", said)
 
     def test_a_skin_of_its_own_is_kept(self):
@@ -331,13 +331,13 @@ class ArmOfAnotherFile(ProgramTest):
         done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), *SOURCE_PARTS, "--verbose", "-o",
                          self.path("out.sbf"))
         self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1, done.err)
-        self.assertIn("lies in the object 'twin' or beside it", done.err)
+        self.assertIn("is inside or near the object 'twin'", done.err)
         objects["twin"] = ([(x, y + 1.5, z) for x, y, z in arm.points], objects["twin"][1])
         variants.write(variants.one_object(obj_of({**objects, "bracelet": bracelet}), "both"), self.path("both.obj"))
         done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), *SOURCE_PARTS, "--verbose", "-o",
                          self.path("out.sbf"))
         self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1, done.err)
-        self.assertIn("of the object 'both' lie apart from the rig", done.err)
+        self.assertIn("of the object 'both' are apart from the rig", done.err)
 
 
 if __name__ == "__main__":

@@ -79,7 +79,7 @@ class Cow(ProgramTest):
     def test_the_skeleton_of_a_person_is_refused(self):
         said = self.fails(1, "convert", shared("spot", "spot.obj"), "--rig", MOCAP, "--report", self.path("why.json"), "-o",
                           self.path("no.sbf"))
-        self.assertRegex(said, r"its limbs were not all found: with '.*' turned, \d+ % of the bones' length lies inside")
+        self.assertRegex(said, r"not all limbs were found: after '.*' were rotated, \d+ % of the bones' length is inside")
         self.assertIn("IMPORT_RIG_OUTSIDE", said)
         self.assert_empty_folder(but=["why.json"])
         with open(self.path("why.json"), encoding="utf-8") as stream:
@@ -90,7 +90,7 @@ class Cow(ProgramTest):
     def test_parts_without_bones_are_named(self):
         """All bones of a long cow lie in the fat one, but not in its head and legs."""
         said = self.fails(1, "convert", shared("spot", "spot.obj"), "--rig", LONG_COW, "-o", self.path("no.sbf"))
-        self.assertRegex(said, r"outside lie no bones, but (3[5-9]|[4-9]\d) % of the mesh has none near; .*IMPORT_RIG_OUTSIDE")
+        self.assertRegex(said, r"outside are no bones, but (3[5-9]|[4-9]\d) % of the mesh has none near; .*IMPORT_RIG_OUTSIDE")
 
 
 class Ball(ProgramTest):
@@ -111,7 +111,7 @@ class Ball(ProgramTest):
         self.assertEqual(self.convert(0).status, 0)
         result = self.convert(60)
         self.assertEqual(result.status, 1)
-        self.assertRegex(result.err, r"2\d % lie deep inside, where other bones are nearer to all of it: 'Deep\d+.*IMPORT_RIG_OUTSIDE")
+        self.assertRegex(result.err, r"2\d % is deep inside, where other bones are nearer to the surface: 'Deep\d+.*IMPORT_RIG_OUTSIDE")
 
 
 def chain(name, direction, distances):
@@ -205,7 +205,7 @@ class Frog(ProgramTest):
         original = Original(FROG, self.folder)
         write_bones(FROG, self.path("bones.glb"))
         done = self.good("convert", original.obj_path, "--rig", self.path("bones.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
-        self.assertRegex(done.err, r"warning: .* only \d+ % of the bones' length lies inside the mesh; outside lie '.*RIG_OTHER_MESH")
+        self.assertRegex(done.err, r"warning: .* only \d+ % of the bones' length is inside the mesh; outside are '.*RIG_OTHER_MESH")
 
 
 if __name__ == "__main__":

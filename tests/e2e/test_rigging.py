@@ -26,7 +26,7 @@ def same_mesh(obj):
     z_up = ("x", "-z", "y")
     return {
         "as it is": (obj, None),
-        "centimetres, Z up": (variants.moved(obj, 0.01, z_up), "turned by -90 degrees about x"),
+        "centimetres, Z up": (variants.moved(obj, 0.01, z_up), "rotated by -90 degrees about x"),
         "inches, facing -Z, shuffled": (variants.shuffled(variants.moved(obj, 0.0254, ("-x", "y", "-z"))), "inches"),
         "mirrored with its polygons, elsewhere": (variants.moved(obj, 1, ("-x", "y", "z"), (5, 1, -2)), "moved by"),
         "mirrored without its polygons": (variants.moved(obj, 1000, ("x", "y", "-z"), turn_mirrored=False), None),
@@ -90,7 +90,7 @@ class ByPlace(ProgramTest):
             with self.subTest(name):
                 result = self.convert(obj, *SOURCE_PARTS)
                 self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
-                self.assertIn(" of the rig's own mesh, by place", result.err)
+                self.assertIn(" from the same positions of the rig's mesh", result.err)
                 if said:
                     self.assertIn(said, result.err)
 
@@ -194,8 +194,8 @@ class InSavedPose(ProgramTest):
         self.assertGreater(max(map(math.dist, obj.points, self.calf.obj.points)), 0.1)
         variants.write(obj, self.path("in.obj"))
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
-        self.assertIn("stands as", done.err)
-        self.assertIn(f"{len(obj.points)} of the rig's own mesh, by place", done.err)
+        self.assertIn("has the pose of", done.err)
+        self.assertIn(f"{len(obj.points)} from the same positions of the rig's mesh", done.err)
         self.check(obj, 1e-5)
         self.good("export", self.path("out.sbf"), "-o", self.path("back.obj"))
         back = variants.read(self.path("back.obj"))
@@ -208,21 +208,21 @@ class InSavedPose(ProgramTest):
         obj = variants.shuffled(variants.moved(posed(self.calf, self.motions), 0.01, ("x", "-z", "y")))
         variants.write(obj, self.path("in.obj"), 6)
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
-        self.assertIn("turned by -90 degrees about x", done.err)
+        self.assertIn("rotated by -90 degrees about x", done.err)
         self.check(obj, 1e-4)
 
     def test_the_bind_pose_is_found_in_such_a_file(self):
         variants.write(self.calf.obj, self.path("in.obj"))
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
-        self.assertNotIn("stands as", done.err)
+        self.assertNotIn("has the pose of", done.err)
         self.check(self.calf.obj, 1e-5)
 
     def test_an_edited_mesh_is_taken_back_by_the_weights_beside_it(self):
         obj = variants.jiggled(posed(self.calf, self.motions), 1, 0.003)
         variants.write(obj, self.path("in.obj"), 6)
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
-        self.assertIn("stands as", done.err)
-        self.assertIn("carried over from the nearest surface", done.err)
+        self.assertIn("has the pose of", done.err)
+        self.assertIn("from the nearest surface", done.err)
         gaps = sorted(math.dist(place, self.calf.places[vertex]) / variants.size_of(self.calf.obj)
                       for vertex, (_, place) in weights_by_vertex(self.path("out.sbf")).items())
         self.assertLess(gaps[int(0.99 * len(gaps))], 0.015)
@@ -238,7 +238,7 @@ class InSavedPose(ProgramTest):
                 places, faces, stated = drawn_mesh(Glb(path))
                 variants.write(variants.Obj(places, [], [], faces), self.path("in.obj"))
                 done = self.good("convert", self.path("in.obj"), "--rig", path, *SOURCE_PARTS, "-o", self.path("out.sbf"))
-                self.assertIn("stands as", done.err)
+                self.assertIn("has the pose of", done.err)
                 found = weights_by_vertex(self.path("out.sbf"))
                 equal = sum(difference(weights, stated[v]) <= 1e-3 for v, (weights, _) in found.items())
                 self.assertGreaterEqual(equal, 0.999 * len(found))
@@ -302,7 +302,7 @@ class AtAMomentOfAClip(ProgramTest):
     def test_between_frames_in_centimetres_split_and_shuffled(self):
         z_up = ("x", "-z", "y")
         obj = self.write_posed(0.7331, lambda obj: variants.shuffled(variants.by_material(variants.moved(obj, 0.01, z_up))))
-        self.assertIn("turned by -90 degrees about x", self.check(obj, 0.7331).err)
+        self.assertIn("rotated by -90 degrees about x", self.check(obj, 0.7331).err)
 
     def test_a_mesh_of_another_pose_is_not_taken_for_one(self):
         motions = save_in_a_pose(CALF, self.path("pose.glb"), {b: (0, 0, 0.2, 0.98) for b in self.bones[::3]})
@@ -328,7 +328,7 @@ class ByNearness(ProgramTest):
                 variants.write(obj, self.path("in.obj"), 6)
                 result = self.good("convert", self.path("in.obj"), "--rig", CALF, *SOURCE_PARTS, "-o",
                                    self.path("out.sbf"))
-                self.assertIn("carried over from the nearest surface", result.err)
+                self.assertIn("from the nearest surface", result.err)
                 errors = posed_errors(self.calf, obj, self.path("out.sbf"), motions)
                 self.assertLess(errors[int(0.99 * len(errors))], 0.01)
                 found = weights_by_vertex(self.path("out.sbf"))
@@ -478,25 +478,25 @@ class FromFile(ProgramTest):
         rows, count = "".join(f"{i},{bone},1\n" for i in range(6)), len(self.calf.obj.points)
         write_bytes(self.path("w.csv"), f"vertex,bone,weight\n{rows}".encode())
         said = self.good(*self.convert(self.path("w.csv"))).err
-        self.assertIn(f"warning: {self.calf.obj_path}: the file of weights has 6 of the {count} points", said)
+        self.assertIn(f"warning: {self.calf.obj_path}: the weights file has 6 of the {count} points", said)
         root = Bundle(self.path("out.sbf")).bone_names()[0]
         self.assertIn(f"the other {count - 6} follow the root bone '{root}'", said)
         found = weights_by_vertex(self.path("out.sbf"))
         self.assertEqual([found[i][0] for i in (5, 6)], [{bone: 1}, {root: 1}])
         rows = "".join(f"{i},{bone},1\n" for i in range(count))
         write_bytes(self.path("w.csv"), f"vertex,bone,weight\n{rows}".encode())
-        self.assertNotIn("the file of weights has", self.good(*self.convert(self.path("w.csv"))).err)
+        self.assertNotIn("the weights file has", self.good(*self.convert(self.path("w.csv"))).err)
 
     def test_files_at_fault_are_refused_with_their_line(self):
         bone = next(iter(self.calf.weights[0]))
         faults = {
             "vertex,bone,weight\n0,Nobody,1\n": "line 2|no bone of",
             f"vertex,bone,weight\n0,{bone},1\n99999999,{bone},1\n": "no vertex 99999999",
-            f"vertex,bone,weight\n0,{bone},-1\n": "is no weight",
-            f"vertex,bone,weight\n0,{bone},nan\n": "is no weight",
-            f"vertex,bone,weight\nx,{bone},1\n": "is no number of a vertex",
-            "vertex,weight\n0,1\n": "no column is called 'bone'",
-            "vertex,bone,weight\n": "gives no vertex a weight",
+            f"vertex,bone,weight\n0,{bone},-1\n": "is not a weight",
+            f"vertex,bone,weight\n0,{bone},nan\n": "is not a weight",
+            f"vertex,bone,weight\nx,{bone},1\n": "is not a vertex number",
+            "vertex,weight\n0,1\n": "there is no column 'bone'",
+            "vertex,bone,weight\n": "no vertex has a weight",
             "": "the file is empty",
         }
         for text, said in faults.items():
@@ -524,7 +524,7 @@ class FromFile(ProgramTest):
     def test_ways_without_anything_to_choose_from(self):
         self.assertIn("--rig FILE", self.fails(2, "convert", self.calf.obj_path, "--weights", "match", "-o",
                                                self.path("out.sbf")))
-        self.assertIn("of its own", self.fails(2, "convert", CALF, "--weights", "match", "-o", self.path("out.sbf")))
+        self.assertIn("has its own", self.fails(2, "convert", CALF, "--weights", "match", "-o", self.path("out.sbf")))
         self.assert_empty_folder()
 
     def test_a_word_that_is_no_way_and_no_file(self):
@@ -588,7 +588,7 @@ class FromBones(ProgramTest):
                             [("pole", None, [(i, None, None) for i in c]) for c in
                              ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))])
         said = self.fails(1, *self.convert(pole))
-        self.assertRegex(said, r"only \d+ % of the bones' length lies inside the mesh; outside lie '.*' by .* m")
+        self.assertRegex(said, r"only \d+ % of the bones' length is inside the mesh; outside are '.*' by .* m")
         self.assertIn("IMPORT_RIG_OUTSIDE", said)
         self.assertNotIn("rest pose", said)
         self.assert_empty_folder(but=["in.obj"])
@@ -616,7 +616,7 @@ class FromBones(ProgramTest):
                 write_bones(Original(os.path.join(ROOT, "examples", name, name + ".glb"), folder).bundle, self.path("other.bvh"))
                 call = ("convert", self.path("in.obj"), "--rig", self.path("other.bvh"), *SOURCE_PARTS)
                 said = self.fails(1, *call, "-o", self.path("out.sbf"))
-                self.assertRegex(said, r"reach over \d+ % of its length alone.*RIG_MISFIT|only \d+ % of the bones' length")
+                self.assertRegex(said, r"extend over only \d+ % of its length.*RIG_MISFIT|only \d+ % of the bones' length")
                 self.assert_empty_folder(but=["in.obj", "other.bvh"])
 
     def test_a_body_as_wide_as_long_is_turned_forwards(self):
@@ -625,7 +625,7 @@ class FromBones(ProgramTest):
         write_bones(dragon.bundle, self.path("dragon.bvh"), 37)
         variants.write(variants.moved(dragon.obj, 0.01, ("x", "-z", "y")), self.path("in.obj"), 6)
         done = self.good("convert", self.path("in.obj"), "--rig", self.path("dragon.bvh"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
-        self.assertIn("laid over the rig: turned by -90 degrees about x", done.err)
+        self.assertIn("aligned with the rig: rotated by -90 degrees about x", done.err)
 
     def test_a_mesh_of_one_triangle_is_refused(self):
         triangle = variants.Obj([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [],

@@ -72,7 +72,7 @@ class Softness(ProgramTest):
         self.assertEqual(soft_of(self.converted("two", "--rigid", "*", "--soft", "head,tail2")), set(), "rigid comes last")
         self.assertLessEqual({"head", "tail2"}, soft_of(self.converted("more", "--soft", "head,tail2")))
         self.assertEqual(len(soft_of(self.converted("all", "--soft", "*"))), 22)
-        self.assertIn("no bone or object on one is called 'antlers'", self.fails(1, "convert", CALF, "-o", self.path("x.sbf"), "--soft", "antlers"))
+        self.assertIn("no bone, and no object attached to a bone, has the name 'antlers'", self.fails(1, "convert", CALF, "-o", self.path("x.sbf"), "--soft", "antlers"))
         self.assertFalse(os.path.exists(self.path("x.sbf")))
 
     def test_firmness_scales_and_materials_are_exact(self):
@@ -102,7 +102,7 @@ class Softness(ProgramTest):
         joint = [n.get("name") for n in glb.json["nodes"]].index("spine")
         glb.node("turret", joint, mesh=glb.mesh(*box((-0.6, 0.7, -0.6), (0.6, 1.6, 0.6))))
         out = self.path("turret.sbf")
-        self.assertIn("1 object on bones", self.good("convert", glb.write(self.path("turret.glb")), "-o", out).err)
+        self.assertIn("1 object attached to bones", self.good("convert", glb.write(self.path("turret.glb")), "-o", out).err)
         self.assertEqual(self.json_of("info", out)["sections"], [])
         self.assertIn("turret", [m["name"] for m in self.json_of("info", out)["render_meshes"]])
 
@@ -144,7 +144,7 @@ class Softness(ProgramTest):
         joint = [n.get("name") for n in glb.json["nodes"]].index("head")
         glb.node("hat", joint, mesh=glb.mesh(*box((-0.06, 0.97, 0.45), (0.06, 1.07, 0.57))))
         path, out = glb.write(self.path("hat.glb")), self.path("hat.sbf")
-        self.assertIn("1 object on bones", self.good("convert", path, "-o", out).err)
+        self.assertIn("1 object attached to bones", self.good("convert", path, "-o", out).err)
         self.assertNotIn("hat", [s["name"] for s in self.json_of("info", out)["sections"]])
         self.assertIn("hat", [m["name"] for m in self.json_of("info", out)["render_meshes"]])
         self.good("convert", path, "-o", out, "--soft", "hat,head")

@@ -34,7 +34,7 @@ class StrangerRigs(ProgramTest):
     def test_a_second_character_is_named(self):
         for placed in ([(0, 0, 0), (2, 0, 0)], [(-1, 0, 0), (1, 0, 0)], [(1, 0, 1), (-4, 0, 0)]):
             said = self.converted(*map(matrix_of, placed))
-            self.assertRegex(said, r"'p1_hips' alone: that of 'p2_hips' .* a file of its own \[RIG_OTHER_SKELETON\]")
+            self.assertRegex(said, r"only the skeleton of 'p1_hips', and the skeleton of 'p2_hips' .* its own file \[RIG_OTHER_SKELETON\]")
             self.assertEqual(set(self.walk()["steps_taken"]), {"p1_foot.L", "p1_foot.R"})
         said = self.converted(*(matrix_of((x, 0, 0)) for x in (0, 2, 4)), options=("--verbose",))
         self.assertEqual(said.count("[RIG_OTHER_SKELETON]"), 2)
@@ -77,7 +77,7 @@ class StrangerRigs(ProgramTest):
         glb.json["buffers"][0]["uri"] = "gone.bin"
         write_bytes(self.path("in.gltf"), json.dumps({k: v for k, v in glb.json.items() if v != []}).encode())
         said = self.fails(1, "convert", self.path("in.gltf"), "-o", self.path("none.sbf"))
-        self.assertRegex(said, r'"gone.bin"; put that file where its name says.*\[IMPORT_REFUSED\]')
+        self.assertRegex(said, r'"gone.bin"; put the referenced file at that path.*\[IMPORT_REFUSED\]')
 
     def test_a_binary_gltf_of_any_name_is_read_as_one(self):
         people(self.path("in.glb"), matrix_of())
@@ -93,8 +93,8 @@ class StrangerRigs(ProgramTest):
             with self.subTest(unit):
                 files = (write_person_obj(self.path("in.obj"), mesh), "--rig", write_person_bvh(self.path("in.bvh"), bones))
                 said = self.good("convert", *files, *SOURCE_PARTS, "-o", self.path("out.sbf")).err
-                found = re.search(r"it measures (\S+) of its own units, the bones of \S*in.bvh (\S+) of theirs, .* "
-                                  r"--unit (\S+), the input's, makes it (\S+) m.*\[UNIT_LOOKS_WRONG\]", said)
+                found = re.search(r"the input measures (\S+) of its units, the bones of \S*in.bvh measure (\S+) of theirs, .* "
+                                  r"--unit (\S+) for the input, which makes it (\S+) m.*\[UNIT_LOOKS_WRONG\]", said)
                 self.assertTrue(found, said)
                 self.assertEqual(found.group(3), unit)
                 self.assertAlmostEqual(float(found.group(1)), 1.79 * mesh, delta=0.02 * mesh)
@@ -111,13 +111,13 @@ class StrangerRigs(ProgramTest):
         glb.node("Floor", mesh=glb.mesh(*box((-50, -0.1, -50), (50, 0, 50))))
         glb.write(self.path("in.glb"))
         said = self.good("convert", self.path("in.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf")).err
-        self.assertRegex(said, r"object 'Floor' measures 100 m beside bones of 1.4\d* m.*\[UNIT_LOOKS_WRONG\]")
+        self.assertRegex(said, r"object 'Floor' measures 100 m, the bones measure 1.4\d* m.*\[UNIT_LOOKS_WRONG\]")
         self.assertNotIn("--unit", said)
 
     def test_no_unit_is_proposed_that_the_option_refuses(self):
         self.assertIn("scale it in its program", self.converted(matrix_of(scale=(1e-15,) * 3)))
         said = self.converted(matrix_of(scale=(1e-6,) * 3))
-        unit = re.search(r"--unit (\S+) makes it", said).group(1)
+        unit = re.search(r"--unit (\S+), which makes it", said).group(1)
         self.converted(matrix_of(scale=(1e-6,) * 3), options=("--unit", unit))
 
     def test_equal_names_of_nodes_are_told_with_a_remedy(self):
@@ -126,7 +126,7 @@ class StrangerRigs(ProgramTest):
             add_person(glb, f"person{i}", matrix_of((2 * i, 0, 0)))
         glb.write(self.path("in.glb"))
         said = self.good("convert", self.path("in.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf")).err
-        self.assertRegex(said, r'2 nodes are named "hips" .*give each node a name of its own .*\[IMPORT_NAME_AMBIGUOUS\]')
+        self.assertRegex(said, r'2 nodes have the name "hips", .*give each node its own name .*\[IMPORT_NAME_AMBIGUOUS\]')
 
     def test_a_tiny_one_has_steps_that_a_tick_resolves(self):
         self.converted(matrix_of(scale=(1 / 1800,) * 3))
@@ -148,7 +148,7 @@ class StrangerRigs(ProgramTest):
         self.converted(matrix_of())
         said = self.fails(2, "export", self.path("out.sbf"), "--drive", "1,0", "-o", self.path("out.glb"))
         self.assertIn("--drive is for a motion", said)
-        self.assertIn("leave --fps out", self.fails(2, "export", self.path("out.sbf"), "--fps", "25", "-o", self.path("out.obj")))
+        self.assertIn("leave out --fps", self.fails(2, "export", self.path("out.sbf"), "--fps", "25", "-o", self.path("out.obj")))
         self.good("export", self.path("out.sbf"), "--drive", "1,0", "--seconds", "0.1", "-o", self.path("out.glb"))
 
 

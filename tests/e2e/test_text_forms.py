@@ -68,7 +68,7 @@ class Skeletons(ProgramTest):
                          [(-1, {-1}), (3, {3})])
 
     def test_what_cannot_be_told_apart_is_refused(self):
-        for skeletons, said in ((0, "does not say which is its own"), (2, "is shown with several")):
+        for skeletons, said in ((0, "does not say which one it uses"), (2, "is used with several")):
             with self.subTest(skeletons):
                 source = collada_files.write(self.path("in.dae"), (Tube(0, -1, skeletons=skeletons), Tube(1, 3)))
                 result = call("convert", source, "-o", self.path("out.sbf"))
@@ -90,7 +90,7 @@ class NoNumbers(ProgramTest):
         self.good("convert", write_bytes(self.path("in.fbx"), FBX.format("0.5").encode()), "--no-build", "-o", self.path("x.sbf"))
         for number in NO_NUMBERS:
             with self.subTest(number):
-                said = f"line 10 holds {number.lstrip('-')}" if "#" in number else "is infinite or NaN"
+                said = f"line 10 has {number.lstrip('-')}" if "#" in number else "is infinite or NaN"
                 self.refused("in.fbx", FBX.format(number), said)
 
     def test_collada(self):

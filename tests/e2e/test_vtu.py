@@ -21,7 +21,7 @@ class Vtu(ProgramTest):
                 points, tetrahedra, said = self.grid(content)
                 self.assertEqual(points, POINTS)
                 self.assertEqual([sorted(t) for t in tetrahedra], [[0, 1, 2, 3], [1, 2, 3, 4]])
-                self.assertIn("1 elements that are no tetrahedra", said)
+                self.assertIn("1 elements that are not tetrahedra", said)
 
     def test_pieces_are_joined(self):
         moved = [(x + 5, y, z) for x, y, z in POINTS]

@@ -25,7 +25,7 @@ class WrittenBundles(ProgramTest):
         for place in (out, old):
             message = self.fails(1, command, source, "-o", place, *options)
             self.assertIn(f"[{code}]", message)
-            self.assertIn(f"{place} is not written: what {source} gives has 1 error", message)
+            self.assertIn(f"{place} was not written: the result for {source} has 1 error", message)
         self.assertFalse(os.path.exists(out))
         self.assertEqual(read_bytes(old), b"as it was")
 

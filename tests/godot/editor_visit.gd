@@ -51,7 +51,7 @@ func _physics_process(_delta: float) -> void:
 		bare.scale = Vector3(1, 2, 1)
 		bare.rotation.x = 0.3
 	if frame == 130:
-		for words in ["There is nothing to show", "scaled unevenly", "It is tilted"]:
+		for words in ["There is nothing to show", "scaled unevenly", "is tilted"]:
 			check(warnings().count(words) == 1, "warned %d times: %s" % [warnings().count(words), words])
 		check(character.get_state_hash() == hash_at_rest and character.get_travelled() == 0, "it moves without preview")
 		character.position = Vector3(2, 0.5, 0)

@@ -196,7 +196,7 @@ def demo(godot, program, keep):
 
 REFUSALS = (
     "play: the asset has no clip wave: see SoftAsset.get_clip_names", "play: the options are a dictionary with", "speed: nan is not a number",
-    "layer: 7 is not a number from 0 to 3", "the asset has no bone mask wings", "queue: 8 clips wait already",
+    "layer: 7 is not a number from 0 to 3", "the asset has no bone mask wings", "queue: 8 clips are waiting already",
     "the asset has no ik_chain that ends at the bone wing", "set_ik_target: the transform is not finite",
     "set_look_target: the asset has no such bone", "set_look_target: the point is not finite", "pose_weight: nan is not a number",
     "drag: nothing is grabbed", "apply_impulse: the position is not finite", "velocity: inf is not a number",
@@ -400,7 +400,7 @@ def main():
             passed = godot.passes("signals")
         elif asked.case == "animation":
             animated(asked.program, godot.folder)
-            passed = godot.passes("animation", allowed=("SoftCharacter3D#",), said="pose_source is no Skeleton3D")
+            passed = godot.passes("animation", allowed=("SoftCharacter3D#",), said="pose_source is not a Skeleton3D")
         elif asked.case == "refused":
             animated(asked.program, godot.folder)
             cube(asked.program, godot.folder)

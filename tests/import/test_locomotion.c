@@ -300,7 +300,7 @@ START_TEST(where_it_is_unclear_legs_walk)
   ck_assert_uint_eq(c.asset->gaits.at[0].legs.count, 2);
   const sbf_diagnostic *note = converted_note(&c, SBF_CODE_GAIT_KIND_UNSURE);
   ck_assert_ptr_nonnull(note);
-  ck_assert_ptr_nonnull(strstr(note->message, "fly is nearly as likely"));
+  ck_assert_ptr_nonnull(strstr(note->message, "fly is almost as likely"));
   ck_assert_ptr_nonnull(strstr(note->message, "--gait"));
   converted_free(&c);
 }
@@ -324,7 +324,7 @@ START_TEST(nothing_walks_on_one_leg)
   ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_NO_LEGS), 0);
   const sbf_diagnostic *note = converted_note(&c, SBF_CODE_GAIT_KIND);
   ck_assert_ptr_nonnull(note);
-  ck_assert_ptr_nonnull(strstr(note->message, "crawl and not walk"));
+  ck_assert_ptr_nonnull(strstr(note->message, "crawl instead of walk"));
   converted_free(&c);
 }
 END_TEST

@@ -145,18 +145,18 @@ START_TEST(broken_states_are_noticed)
   ck_assert_str_eq(fault_of(&s), "character 0, island 0: a velocity of its points is not finite");
   sbri_velocities(c)[5] = 0;
   sbri_pose(c)[0].rotation.w += 1;
-  ck_assert_str_eq(fault_of(&s), "character 0, frame 0: its rotation is no unit quaternion");
+  ck_assert_str_eq(fault_of(&s), "character 0, frame 0: its rotation is not a unit quaternion");
   sbri_pose(c)[0].rotation.w -= 1;
   ck_assert_uint_gt(sbri_contact_counts(c)[0], 0);
   sbri_contacts(c)[c->model->bodies[0].contact.first].sample.slots[2] = 100000;
   ck_assert_str_eq(
-      fault_of(&s), "character 0, soft body 0: a contact lies on a point that is not its island's");
+      fault_of(&s), "character 0, soft body 0: a contact is on a point that is not in its island");
   sbri_contact_counts(c)[0] = UINT32_MAX;
-  ck_assert_str_eq(fault_of(&s), "character 0, soft body 0: it has more contacts than room for them");
+  ck_assert_str_eq(fault_of(&s), "character 0, soft body 0: it has more contacts than its capacity");
   sbri_contact_counts(c)[0] = 0;
   ck_assert_int_eq(sbr_world_validate(s.world, NULL), SBF_OK);
   s.world->events.counts[1] = s.world->events.capacity + 1;
-  ck_assert_str_eq(fault_of(&s), "world, events 1: there are more than there is space for");
+  ck_assert_str_eq(fault_of(&s), "world, events 1: there are more than the capacity");
   s.world->events.counts[1] = 0;
   scene_free(&s);
 }

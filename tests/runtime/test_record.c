@@ -149,7 +149,7 @@ START_TEST(characters_made_meanwhile_are_told)
   scene_ticks(&s, 3);
   ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &other, NULL), SBF_OK);
   ck_assert_int_eq(sbr_replay_begin(&replay, s.world, t.bytes, t.size, &error), SBF_BAD_INPUT);
-  ck_assert_ptr_nonnull(strstr(error.message, "characters were made"));
+  ck_assert_ptr_nonnull(strstr(error.message, "characters were created"));
   ck_assert(!sbr_replay_step(&replay));
   ck_assert_int_eq(sbr_replay_begin(NULL, s.world, t.bytes, t.size, &error), SBF_FAILED);
   sbr_world_set_recording(NULL, &output);

@@ -64,7 +64,7 @@ START_TEST(what_it_does_not_do_is_told)
   ck_assert_uint_eq(sbr_model_report_unsupported(s.model, hear, &h), 1);
   ck_assert_uint_eq(h.count, 1);
   ck_assert_ptr_nonnull(strstr(
-      h.all, "collisions with themselves of bodies whose surface points are not the level's are left out"));
+      h.all, "self-collisions of bodies with surface points that the level does not have are left out"));
   scene_free(&s);
 }
 END_TEST

@@ -43,7 +43,7 @@ START_TEST(test_messages_end_with_advice)
   report t = {0};
   sbf_validate_options options = {.report = take, .user = &t};
   ck_assert_int_eq(sbf_validate(asset, &options, NULL, NULL), SBF_OK);
-  ck_assert_str_eq(t.last.message, "'B' has neither polygons nor a level: give it polygons or a level");
+  ck_assert_str_eq(t.last.message, "'B' has neither polygons nor a level: add polygons or a level");
   ck_assert_str_eq(t.last.path, "/sbf/soft_body[1]");
   sbf_asset_free(asset);
 }

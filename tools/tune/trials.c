@@ -188,9 +188,8 @@ static sbf_status test_all(sweep *s) {
   if (status == SBF_OK && !t->front_count) status = test_each(s, true);
   if (status != SBF_OK || t->front_count) return status;
   fault_set(s->error, SBF_CODE_BAD_CALL,
-      "nothing that was tried holds through its walk, hop and shake, what it has now not either (%s): make "
-      "it "
-      "stiffer or finer, sbfmt chart shows what holds",
+      "nothing that was tried stays valid in its walk, hop and shake, and neither do its present levels "
+      "(%s): make it stiffer or finer; sbfmt chart shows which settings are valid",
       why_not(s));
   return SBF_BAD_INPUT;
 }

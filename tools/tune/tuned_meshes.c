@@ -143,7 +143,7 @@ static sbf_status make_base(maker *m, const sbf_asset *asset) {
   }
   if (status == SBF_OK && !soft)
     return fault_set(m->error, SBF_CODE_REQUIRED_MISSING,
-        "there is nothing soft here: tune needs a soft body, or a skinned mesh to cut into sections");
+        "nothing is soft: tune needs a soft body, or a skinned mesh to cut into sections");
   return status;
 }
 
@@ -153,9 +153,7 @@ static sbf_status check_base(maker *m) {
     derived = derived || is_derived(&m->to->base->soft_bodies.at[b]);
   if (derived) return SBF_OK;
   return fault_set(m->error, SBF_CODE_REQUIRED_MISSING,
-      "every level here is authored, and tune changes derived ones alone: take the levels out, and sbfmt "
-      "build "
-      "makes some");
+      "every level is authored, and tune changes only derived ones: remove the levels and run sbfmt build");
 }
 
 static sbf_status add_own_levels(maker *m) {
@@ -184,7 +182,8 @@ static sbf_status build_lattice(maker *m, uint32_t size, tune_mesh *mesh) {
   if (status != SBF_OK) return status;
   if (!same_parts(m->to->base, built)) {
     snprintf(m->to->note, sizeof m->to->note,
-        "its sections are not those that a build of today cuts: build it anew to have lattices tried");
+        "its sections differ from those of a build of this version: build it again so that lattices can be "
+        "tried");
     sbf_asset_free(built);
     return SBF_OK;
   }

@@ -47,7 +47,7 @@ static void add_own_error(tune_yardstick *yard, int number, tune_by by) {
   double is = tune_distance_by(&own, by);
   if (!(is < TELLS * yard->size_m)) {
     snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number],
-        "the reference is off itself by %.2g m%s: half as many substeps are so far from it", is,
+        "the reference itself has an error of %.2g m%s, measured with half as many substeps", is,
         by == TUNE_BY_MAX ? " at the worst place" : "");
     return;
   }
@@ -85,7 +85,7 @@ sbf_status tune_yardstick_make(
   }
   if (status != SBF_OK || measured || measure->may_be_empty) return status;
   return fault_set(error, SBF_CODE_BAD_CALL,
-      "there is nothing to measure against, not even its %s: %s; --reference takes another lattice",
+      "there is no valid reference, not even its %s: %s; choose another lattice with --reference",
       yard->cases[0].name, yard->unmeasured[0]);
 }
 

@@ -96,7 +96,7 @@ def without_library(document, path, findings):
 
 
 # What the library says for whoever types commands, in words of Blender.
-IN_BLENDER = ((", as by --material flesh", ", in Scene > Soft body format > What a build makes"),
+IN_BLENDER = ((", for example --material flesh", ", in Scene > Soft body format > What a build makes"),
               ("(--cell, --elements)", "(Scene > Soft body format > What a build makes)"),
               ("(--elements, --cell)", "(Scene > Soft body format > What a build makes)"),
               ("convert the source with --unit", "scale all of it and apply the scale, or set the scene's Unit Scale"),

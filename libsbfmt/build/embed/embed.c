@@ -390,11 +390,12 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter, sbfi_p
   sbf_diagnostic diagnostic;
   if (w->contributions.count == 0 && !(mesh->skin && is_rigid_by_recipe(w->asset, mesh->skin))) {
     sbfi_diagnose(&diagnostic, SBF_CODE_EMBEDDING_NO_BODY,
-        "no soft body carries render mesh \"%s\": give its bones (or one above them) a section", mesh->name);
+        "no soft body deforms render mesh \"%s\": make a section for its bones or for a parent of them",
+        mesh->name);
     sbfi_report(reporter, &diagnostic);
   } else if (w->report->flat > flat_before) {
     sbfi_diagnose(&diagnostic, SBF_CODE_EMBEDDING_FLAT,
-        "%u vertices of render mesh \"%s\" lie off a flat body and are carried at its surface",
+        "%u vertices of render mesh \"%s\" are outside a flat body and follow its surface",
         (unsigned)(w->report->flat - flat_before), mesh->name);
     sbfi_report(reporter, &diagnostic);
   }

@@ -39,18 +39,17 @@ static void list_vertices(const sbfi_far_vertices *of, char *text, size_t size) 
 void sbfi_far_vertices_report(const sbfi_far_vertices *of, const sbf_asset *asset, sbfi_reporter *reporter) {
   char vertices[128];
   sbf_diagnostic diagnostic;
-  const char *what_next = of->in_polygons == of->count ? "give a smaller cell"
-                          : of->in_polygons ? "some are in no polygon, take those out of the source; "
-                                              "for the others give a smaller cell"
-                          : of->count == 1
-                              ? "it is in no polygon and never seen, take it out of the source"
-                              : "they are in no polygon and never seen, take them out of the source";
+  const char *what_next =
+      of->in_polygons == of->count ? "use a smaller cell"
+      : of->in_polygons
+          ? "some are in no polygon: remove those from the source; for the others use a smaller cell"
+      : of->count == 1 ? "it is in no polygon and therefore invisible: remove it from the source"
+                       : "they are in no polygon and therefore invisible: remove them from the source";
   if (of->count == 0) return;
   list_vertices(of, vertices, sizeof vertices);
   sbfi_diagnose(&diagnostic, SBF_CODE_EMBEDDING_FAR,
-      "%s of render mesh \"%s\" lie%s farther than a cell outside the lattice that carries %s, up to %.3g m "
-      "from "
-      "that of soft body \"%s\": %s",
+      "%s of render mesh \"%s\" lie%s more than a cell outside the lattice that deforms %s, up to %.3g m "
+      "from the lattice of soft body \"%s\": %s",
       vertices, of->mesh->name, of->count == 1 ? "s" : "", of->count == 1 ? "it" : "them", of->farthest_m,
       asset->soft_bodies.at[of->body].name, what_next);
   sbfi_report(reporter, &diagnostic);

@@ -63,7 +63,7 @@ static bool has_authored_body(const hull_list *list, int32_t bone) {
 
 static void report_flat(const char *what, const char *name, sbfi_reporter *reporter) {
   sbf_diagnostic diagnostic;
-  sbfi_diagnose(&diagnostic, SBF_CODE_HULL_FLAT, "%s \"%s\" is flat: it gets no convex hull", what, name);
+  sbfi_diagnose(&diagnostic, SBF_CODE_HULL_FLAT, "%s \"%s\" is flat and has no convex hull", what, name);
   sbfi_report(reporter, &diagnostic);
 }
 

@@ -87,8 +87,8 @@ static uint32_t find_taker(const work *w, uint32_t bone) {
 static void merge_part(const work *w, uint32_t bone, uint32_t to, sbfi_reporter *reporter) {
   sbf_diagnostic diagnostic;
   sbfi_diagnose(&diagnostic, SBF_CODE_SECTION_MERGED,
-      "what bone \"%s\" holds, %u polygons of %.3g m^2 behind a cut of %.3g m, is too little for a section "
-      "and goes to \"%s\"",
+      "the part of bone \"%s\", %u polygons of %.3g m^2 behind a cut of %.3g m, is too small for a section "
+      "and joins the part of \"%s\"",
       w->asset->bones.at[bone].name, (unsigned)w->parts[bone].polygons, w->parts[bone].area,
       w->parts[bone].border, w->asset->bones.at[to].name);
   sbfi_report(reporter, &diagnostic);

@@ -46,7 +46,8 @@ typedef struct work {
 static void report(const work *w, uint32_t bone, sbf_code code, uint32_t sides) {
   sbf_diagnostic diagnostic;
   sbfi_diagnose(&diagnostic, code,
-      "%u sides of polygons of the section on bone \"%s\" lie where several sheets meet: it stays open there",
+      "%u polygon edges of the section on bone \"%s\" are where several sheets meet: the section stays open "
+      "there",
       (unsigned)sides, w->asset->bones.at[bone].name);
   sbfi_report(w->reporter, &diagnostic);
 }
@@ -200,8 +201,8 @@ static void report_guesses(const work *w) {
   if (w->guessed_count == 0) return;
   if (w->max_guess > w->min_guess) snprintf(range, sizeof range, "%.6g to ", 1e-3 * (double)w->min_guess);
   sbfi_diagnose(&diagnostic, SBF_CODE_MATERIAL_GUESSED,
-      "no material is given for %u section%s cut from skins: %s%.6g kPa, which bear their weight, are taken; "
-      "give one, as by --material flesh",
+      "%u section%s cut from skins had no material: %s%.6g kPa is used, which bears the weight; choose a "
+      "material, for example --material flesh",
       (unsigned)w->guessed_count, w->guessed_count == 1 ? "" : "s", range, 1e-3 * (double)w->max_guess);
   sbfi_report(w->reporter, &diagnostic);
 }
@@ -224,8 +225,7 @@ static bool smooth_blends(work *w) {
     return false;
   if (left == 0) return true;
   sbfi_diagnose(&diagnostic, SBF_CODE_SECTION_STRETCHED,
-      "%u triangles of the skin still stretch to more than twice their area where a joint bends by 60 "
-      "degrees",
+      "%u triangles of the skin stretch to more than twice their area when a joint bends by 60 degrees",
       (unsigned)left);
   sbfi_report(w->reporter, &diagnostic);
   return true;

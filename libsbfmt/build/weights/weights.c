@@ -104,12 +104,12 @@ static sbf_status run(work *w, sbfi_weights *out, sbf_diagnostic *error) {
   sbfi_weight_mesh_result made = sbfi_weight_mesh_make(&w->mesh, w->in, &w->arena);
   if (made == SBFI_WEIGHT_MESH_TOO_SMALL)
     return sbfi_diagnose(error, SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE,
-        "skin weights need a surface, and this mesh has fewer than four triangles with an area: give the "
-        "character's mesh, or take weights from a file");
+        "skin weights need a surface, and this mesh has fewer than four triangles with an area: use the "
+        "character's mesh, or read weights from a file");
   if (made == SBFI_WEIGHT_MESH_GOOD && (w->in->bone_count == 0 || prepare(w))) {
     if (!has_deforming_bone(w))
       return sbfi_diagnose(error, SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE,
-          "none of the %u bones of the rig may hold a point: give a rig with bones that deform",
+          "none of the %u bones of the rig deforms the mesh: use a rig with deforming bones",
           (unsigned)w->in->bone_count);
     if (compute(w, &out->figures) && copy_out(w, out) && count_unused(w, out)) return SBF_OK;
   }

@@ -269,9 +269,9 @@ static text_verdict rename_list(
     if (is_shared && joint == NONE) {
       snprintf(why, TEXT_WHY,
           "the skin '%.*s' names a joint '%.*s' that several skeletons have, and %s: export each skeleton "
-          "alone",
+          "separately",
           (int)(c->id.length < 60 ? c->id.length : 60), c->id.at, (int)(length < 60 ? length : 60), name.at,
-          c->several ? "is shown with several" : "does not say which is its own");
+          c->several ? "is used with several of them" : "does not say which one it uses");
       return TEXT_REFUSED;
     }
     bool replace = joint != NONE && (is_shared || is_named_elsewhere(d, name, joint));

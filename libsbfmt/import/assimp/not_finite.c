@@ -19,7 +19,7 @@ text_verdict text_find_not_finite(const char *text, size_t size, char why[TEXT_W
     if (quoted || *at != '#' || at - text < 2 || at[-1] != '.' || at[-2] < '0' || at[-2] > '9') continue;
     for (size_t w = 0; w < sizeof words / sizeof *words; w++) {
       if (!begins_with(at, end, words[w])) continue;
-      snprintf(why, TEXT_WHY, "line %lu holds %c.%s, which is no number", line, at[-2], words[w]);
+      snprintf(why, TEXT_WHY, "line %lu has %c.%s, which is not a number", line, at[-2], words[w]);
       return TEXT_NOT_FINITE;
     }
   }

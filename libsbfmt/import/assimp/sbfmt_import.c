@@ -341,7 +341,8 @@ static int read_scene(const char *path, const struct aiScene **scene, const stru
 static bool is_packed(const gltf *g) {
   const char *extension = gltf_unread_extension(g);
   if (extension)
-    fprintf(stderr, "its meshes are packed by %s, which is not read: export them without compression\n",
+    fprintf(stderr,
+        "its meshes are compressed by %s, which is not supported: export them without compression\n",
         extension);
   return extension;
 }
@@ -354,7 +355,7 @@ static bool renumbers_gltf(void) {
 
 int main(int argument_count, char **arguments) {
   if (argument_count != 2) {
-    fprintf(stderr, "usage: sbfmt-import FILE: a part of sbfmt convert, of no use by itself\n");
+    fprintf(stderr, "usage: sbfmt-import FILE: sbfmt convert runs this program; do not run it directly\n");
     return SBFI_CHILD_BAD_CALL;
   }
   bool is_gltf = is_gltf_path(arguments[1]) || begins_as_glb(arguments[1]);
@@ -365,7 +366,7 @@ int main(int argument_count, char **arguments) {
   if (status != SBFI_CHILD_DONE) return status;
   if (!scene_read || !scene_read->mRootNode) {
     const char *message = aiGetErrorString();
-    fprintf(stderr, "%s\n", message && *message ? message : "the file has no content");
+    fprintf(stderr, "%s\n", message && *message ? message : "the file is empty");
     return message && strstr(message, "bad_alloc") ? SBFI_CHILD_NO_MEMORY : SBFI_CHILD_REFUSED;
   }
   if (renumbers_gltf()) restore_gltf_order((struct aiScene *)(uintptr_t)scene_read, &gltf_read);

@@ -117,7 +117,7 @@ static sbf_status attach_some(work *w, bool *found) {
     if (!add_holder(w, w->objects[i], NULL, *bone)) return sbfi_convert_no_memory(w->c);
     *found = true;
     sbfi_convert_warn(w->c, SBF_CODE_RIG_SECTION_GUESSED,
-        "object '%s' has no bone for a parent: it moves with '%s', which it touches; parent it to another "
+        "object '%s' has no bone as its parent: it moves with '%s', which it touches; parent it to another "
         "bone if that is wrong",
         w->c->name_of_mesh[i], w->c->asset->bones.at[*bone].name);
   }

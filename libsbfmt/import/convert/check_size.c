@@ -29,8 +29,8 @@ static void check_bones(sbfi_conversion *c) {
   double size = extent_of_bones(&c->asset->bones);
   if (c->scene->unit_known || !(size > TALLEST)) return;
   sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
-      "the bones measure %.4g m with a unit of %.4g m, as is assumed: if they are a person's, --unit %.3g "
-      "makes them %.4g m; --unit %.3g says that it is right",
+      "the bones measure %.4g m with the assumed unit of %.4g m: if they are a person's, use --unit %.3g, "
+      "which makes them %.4g m; if the size is right, confirm it with --unit %.3g",
       size, c->scene->unit_m, c->scene->unit_m * USUAL / size, USUAL, c->scene->unit_m);
 }
 
@@ -49,8 +49,9 @@ static void check_person(sbfi_conversion *c, double size) {
   double of_rig = cbrt(fabs(sbfi_matrix_determinant(&c->rig_to_asset))), unit_m = c->scene->unit_m;
   double unit = unit_of_person(size / unit_m), bones = extent_of_bones(&c->asset->bones) / of_rig;
   sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
-      "it measures %.4g of its own units, the bones of %s %.4g of theirs, and neither file states a unit: if "
-      "they are a person's, --unit %.4g, the input's, makes it %.4g m; --unit %.3g says that it is right",
+      "the input measures %.4g of its units, the bones of %s measure %.4g of theirs, and neither file states "
+      "a unit: if they are a person's, use --unit %.4g for the input, which makes it %.4g m; if the size is "
+      "right, confirm it with --unit %.3g",
       size / unit_m, c->rig_file->file, bones, unit, unit * size / unit_m, unit_m);
 }
 
@@ -82,9 +83,8 @@ static bool check_surroundings(sbfi_conversion *c, double size) {
   }
   if (!largest || !(extent_of_mesh(largest) > SURROUNDINGS * bones)) return false;
   sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
-      "object '%s' measures %.4g m beside bones of %.4g m, and becomes a body of its own: leave it out of "
-      "the "
-      "file if it is a floor or another thing around the character",
+      "object '%s' measures %.4g m, the bones measure %.4g m, and the object becomes a separate body: remove "
+      "it from the file if it is a floor or another thing around the character",
       largest->name, extent_of_mesh(largest), bones);
   return true;
 }
@@ -95,13 +95,13 @@ static void report_size(sbfi_conversion *c, double size, double scale) {
   const char *source = c->scene->unit_known ? "the form or the file says" : "is assumed";
   if (unit >= MIN_UNIT && unit <= MAX_UNIT)
     sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
-        "everything together measures %.4g m with a unit of %.4g m, as %s: --unit %.3g makes it %.4g m, "
-        "--unit %.3g says that it is right",
+        "the whole input measures %.4g m with a unit of %.4g m, as %s: use --unit %.3g, which makes it %.4g "
+        "m, or confirm the size with --unit %.3g",
         size, unit_m, source, unit, size * scale, unit_m);
   else
     sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
-        "everything together measures %.4g m with a unit of %.4g m, as %s: scale it in its program, for no "
-        "--unit makes it a character",
+        "the whole input measures %.4g m with a unit of %.4g m, as %s: scale it in its program, because no "
+        "--unit gives it the size of a character",
         size, unit_m, source);
 }
 

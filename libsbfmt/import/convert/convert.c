@@ -113,23 +113,23 @@ static void report_joined_points(sbfi_conversion *c) {
   }
   if (points < vertices)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_POINTS_JOINED,
-        "%llu vertices, as stored for drawing, stand for %llu points: those of an object that are in one "
-        "place and move alike are joined",
+        "%llu vertices of the file became %llu points: vertices of an object at one position that move alike "
+        "were merged",
         (unsigned long long)vertices, (unsigned long long)points);
 }
 
 static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
   if (c->scene->mesh_count == 0 && !c->rig)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
-        "%s holds neither a mesh nor a skeleton: there is nothing to convert", c->scene->file);
+        "%s has neither a mesh nor a skeleton: there is nothing to convert", c->scene->file);
   if (c->scene->mesh_count == 0)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_MESH,
-        "the file holds a skeleton and no mesh: the bundle will have bones only; give a mesh file as the "
-        "input and this one with --rig");
+        "the file has a skeleton and no mesh, so the bundle has bones only: use a mesh file as the input and "
+        "this file with --rig");
   report_joined_points(c);
   if (!c->rig)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
-        "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
+        "the file has no skeleton, so its objects become bodies without pins: add a skeleton with --rig");
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
       sbfi_rig_input, sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials,
       sbfi_convert_meshes, sbfi_measure_leaf_bones, sbfi_evaluate_gait, sbfi_report_lying, sbfi_face_ahead,
@@ -221,12 +221,11 @@ static sbf_status convert_other_file(const char *input, bool is_paper, const sbf
   sbfi_paper_model paper;
   readings from = {.scene = &scene};
   if (options->rig)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s %s: it cannot take a rig; %s", input,
-        is_paper ? "has a skeleton of its own" : "holds tetrahedra alone",
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s %s and cannot use a rig: %s", input,
+        is_paper ? "has its own skeleton" : "has only tetrahedra",
         is_paper ? "leave out --rig"
-                 : "give the surface as OBJ or PLY with --rig, and the build makes its tetrahedra, or leave "
-                   "out --rig for a "
-                   "body without bones");
+                 : "convert the surface as OBJ or PLY with --rig, so that the build makes the tetrahedra, or "
+                   "leave out --rig for a body without bones");
   if (!sbfi_scene_init(&scene, options->allocator, 0, input))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", input);
   sbf_status status = is_paper
@@ -254,22 +253,23 @@ sbf_status sbf_convert(
   if (!error) error = &unseen;
   *asset = NULL;
   if (!sbfi_options_copy(&taken, sizeof taken, options))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbf_convert_options has a size that no version of the library had: initialize it with the defaults");
   options = &taken;
   if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0 and up must be y or z");
   const char *forward = options->forward ? options->forward + (options->forward[0] == '-') : "x";
   if (strcmp(forward, "x") != 0 && strcmp(forward, "y") != 0 && strcmp(forward, "z") != 0)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "forward is one of x, -x, y, -y, z and -z");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "forward must be one of x, -x, y, -y, z and -z");
   if (options->gait && sbfi_locomotion_named(options->gait) == SBFI_LOCOMOTION_KINDS)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "gait is one of walk, swim, fly, slither, crawl, roll and none, not '%s'", options->gait);
+        "gait must be one of walk, swim, fly, slither, crawl, roll and none, not '%s'", options->gait);
   if ((unsigned)options->limits > SBF_CONVERT_LIMITS_REPTILE)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the options name no known kind of limits");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the options have an unknown kind of limits");
   if (!(options->goal_minimum >= 0 && options->goal_minimum <= 1 && options->goal_maximum >= 0 &&
           options->goal_maximum <= 1 && options->goal_stiffness >= 0 && options->goal_stiffness <= FLT_MAX))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "goals have a minimum and a maximum from 0 to 1, stiffness is no less than 0");
+        "the minimum and maximum of goals must be from 0 to 1, and their stiffness at least 0");
 
   bool is_paper = sbfi_paper_knows(input);
   if (is_paper || sbfi_tet_mesh_knows(input))
@@ -283,7 +283,7 @@ sbf_status sbf_convert(
     status = read_scene(&rig_scene, options->rig, &reading, error);
     if (status == SBF_OK && sbfi_scene_bone_count(&rig_scene) == 0)
       status = sbfi_diagnose(error, SBF_CODE_IMPORT_NO_BONES,
-          "%s, given as the rig, holds no skeleton: give a file with bones", options->rig);
+          "the rig file %s has no skeleton: use a file with bones", options->rig);
     rig = &rig_scene;
   }
   if (status == SBF_OK) status = sbfi_convert_scenes(&scene, rig, options, asset, error);

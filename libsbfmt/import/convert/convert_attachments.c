@@ -46,8 +46,8 @@ static sbf_status convert_to_rigid(work *w, uint32_t object) {
   case SBFI_HULL_NO_MEMORY:
     return sbfi_convert_no_memory(c);
   case SBFI_HULL_FLAT:
-    return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-        "'%s' is flat: nothing lies inside it that it could hold", from->name);
+    return sbfi_diagnose(
+        c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "'%s' is flat, so nothing is inside it to attach", from->name);
   case SBFI_HULL_MADE:
     break;
   }
@@ -69,7 +69,7 @@ static sbf_status find_holder(work *w, const char *name, int32_t *holder) {
   if (*holder != SBF_NONE) return SBF_OK;
   if (object < 0)
     return sbfi_diagnose(w->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-        "no object, and no bone with a rigid body, is called '%s' to attach something to", name);
+        "cannot attach to '%s': no object and no bone with a rigid body has that name", name);
   sbf_status status = convert_to_rigid(w, (uint32_t)object);
   *holder = w->rigid_of_object[object];
   return status;
@@ -81,7 +81,7 @@ static sbf_status attach(work *w, const sbf_convert_attachment *wish) {
   int32_t holder;
   if (number < 0)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-        "no soft body is called '%s' that could be attached to '%s'", wish->body, wish->holder);
+        "cannot attach '%s' to '%s': no soft body has that name", wish->body, wish->holder);
   if (strcmp(wish->body, wish->holder) == 0)
     return sbfi_diagnose(
         c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "'%s' cannot be attached to itself", wish->body);
@@ -117,7 +117,7 @@ static sbf_status remove_converted(work *w) {
     }
     if (w->bodies[i].attachments.count)
       return sbfi_diagnose(w->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-          "'%s' is to hold something and cannot be attached itself", w->bodies[i].name);
+          "something is attached to '%s', so it cannot be attached itself", w->bodies[i].name);
   }
   a->soft_bodies = (sbf_soft_body_list){w->bodies, kept};
   a->render_meshes = (sbf_render_mesh_list){meshes, kept_meshes};

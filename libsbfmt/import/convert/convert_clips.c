@@ -244,11 +244,12 @@ static void warn_of_losses(clip_work *w) {
   }
   if (idle)
     sbfi_convert_warn(w->c, SBF_CODE_IMPORT_KEYS,
-        "clip '%s': %u of %u channels move nodes that move no bone, and are left out", w->clip->name,
+        "clip '%s': %u of %u channels are left out, because their nodes do not move a bone", w->clip->name,
         (unsigned)idle, (unsigned)w->clip->channel_count);
   if (w->lost_bones)
     sbfi_convert_warn(w->c, SBF_CODE_IMPORT_KEYS,
-        "clip '%s': keys of %u bones are left out: their transforms are flat, too large or too deep",
+        "clip '%s': keys of %u bones are left out, because their transforms are flat, too large or too "
+        "deeply nested",
         w->clip->name, (unsigned)w->lost_bones);
 }
 
@@ -322,8 +323,8 @@ sbf_status sbfi_convert_clips(sbfi_conversion *c) {
   const sbfi_scene *rig = c->rig ? c->rig : c->scene;
   if (rig->clip_count == 0) return SBF_OK;
   if (c->asset->bones.count == 0) {
-    sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED, "the file's %u animations move no bones and are left out",
-        (unsigned)rig->clip_count);
+    sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
+        "%u animations of the file do not move bones and are left out", (unsigned)rig->clip_count);
     return SBF_OK;
   }
   clip_work w = {.c = c, .rig = rig, .size = size_of(c->asset->bones)};

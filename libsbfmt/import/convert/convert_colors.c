@@ -57,9 +57,8 @@ sbf_status sbfi_convert_colors(
   if (!mesh->color_count || !mesh->corner_count) return SBF_OK;
   if (is_gltf || strcmp(format, "ply") == 0) return write_colors(c, mesh, corner_order, is_gltf, render);
   sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
-      "object '%s': its vertex colours are left out, as programs that write .%s keep masks in them: export "
-      "it "
-      "as glTF to have them drawn",
+      "object '%s': its vertex colours are left out, because programs that write .%s store masks in them: "
+      "export it as glTF if they are colours",
       c->scene->nodes[mesh->node].name, format);
   return SBF_OK;
 }
@@ -76,8 +75,8 @@ uint32_t sbfi_first_uv_set(sbfi_conversion *c, const sbfi_scene_mesh *mesh) {
   }
   if (differ)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_PARTIAL_UVS,
-        "object '%s': base colour images of its materials use different sets of texture coordinates, and all "
-        "are drawn by set %u: use one set for them",
+        "object '%s': the base colour images of its materials use different sets of texture coordinates, and "
+        "set %u is used for all: use one set for them",
         c->scene->nodes[mesh->node].name, (uint32_t)first);
   return first >= 0 && first < mesh->uv_set_count ? (uint32_t)first : 0;
 }

@@ -54,8 +54,7 @@ sbf_status sbfi_face_ahead(sbfi_conversion *c) {
   rotate_asset(quarters, c->asset);
   rotate_matrix(quarters, &c->to_asset);
   rotate_matrix(quarters, &c->rig_to_asset);
-  sbfi_convert_warn(c, SBF_CODE_IMPORT_FACING,
-      "the character looks along %s and not along +Z, which is ahead: all of it was turned",
-      directions[quarters]);
+  sbfi_convert_warn(
+      c, SBF_CODE_IMPORT_FACING, "the character faced %s and was rotated to face +Z", directions[quarters]);
   return SBF_OK;
 }

@@ -84,7 +84,7 @@ static sbf_status stand_at_origin(sbfi_conversion *c) {
     c->rig_to_asset.at[k][3] += by[k];
   }
   sbfi_convert_warn(c, SBF_CODE_IMPORT_GROUND,
-      "the character stands beside the origin, at x = %.3g m, z = %.3g m: all of it was moved there", x, z);
+      "the character was at x = %.3g m, z = %.3g m and was moved to the origin", x, z);
   return SBF_OK;
 }
 

@@ -20,7 +20,7 @@ static const char *path_within(sbfi_conversion *c, const char *path) {
   const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
   if (sbfi_path_leaves_folder(name)) name = "";
   sbfi_convert_warn(c, SBF_CODE_IMPORT_IMAGE,
-      "the image path \"%s\" leads out of the file's folder: \"%s\" is taken; put the image beside the "
+      "the image path \"%s\" leaves the file's folder: \"%s\" is used instead; put the image beside the "
       "bundle",
       sbfi_quote_of(sbfi_span_of(path)).text, sbfi_quote_of(sbfi_span_of(name)).text);
   return name;

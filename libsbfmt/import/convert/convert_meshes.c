@@ -120,7 +120,7 @@ static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *me
   if (status != SBF_OK || !g->turned) return status;
   write_polygons(mesh, !mirrored, sizes, points, g->corner_order);
   sbfi_convert_warn(c, SBF_CODE_IMPORT_INSIDE_OUT,
-      "all polygons of object '%s' face inwards: they were turned round", c->scene->nodes[mesh->node].name);
+      "all polygons of object '%s' faced inwards and were reversed", c->scene->nodes[mesh->node].name);
   return SBF_OK;
 }
 
@@ -249,13 +249,13 @@ static void report_weights(
   const char *name = c->scene->nodes[mesh->node].name;
   if (unweighted)
     sbfi_convert_warn(c, SBF_CODE_RIG_UNWEIGHTED_POINTS,
-        "object '%s': %u points have no weights, or only on joints that the file does not have, and were "
-        "given to the root: paint them in the source",
+        "object '%s': %u points have no weights, or only weights on missing joints, and follow the root "
+        "bone: paint them in the source",
         name, unweighted);
   if (lost)
     sbfi_convert_warn(c, SBF_CODE_RIG_WEIGHTS_LOST,
-        "object '%s': the weights of %u points sum to less than %g, as where joints are named that the "
-        "file does not have; they were scaled to 1: export the skin again",
+        "object '%s': the weights of %u points summed to less than %g, for example because joints are "
+        "missing, and were scaled to 1: export the skin again",
         name, lost, MIN_WEIGHT_SUM);
 }
 
@@ -392,7 +392,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
     status = convert_geometry(c, &c->scene->meshes[i], &geometries[i]);
     if (status == SBF_OK && geometries[i].is_flat)
       sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
-          "object '%s' is left out: none of its polygons has an area",
+          "object '%s' is left out, because none of its polygons has an area",
           c->scene->nodes[c->scene->meshes[i].node].name);
     else if (status == SBF_OK && c->scene->meshes[i].joint_count && c->asset->bones.count)
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
@@ -417,10 +417,12 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   c->asset->render_meshes = (sbf_render_mesh_list){renders, render_count};
   if (status == SBF_OK && body_count + render_count == 0)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
-        "%s holds no surface: none of its polygons has an area; is all scaled to nothing, as by a unit of 0?",
+        "%s has no surface, because none of its polygons has an area: check whether it is scaled to 0, for "
+        "example by its unit",
         c->scene->file);
   if (status == SBF_OK && body_count == 0)
     sbfi_convert_warn(c, SBF_CODE_RIG_NO_SECTIONS,
-        "every mesh is skinned and none hangs on a bone by itself: the build cuts sections along the bones");
+        "every mesh is skinned and none is attached to a bone directly: the build cuts sections along the "
+        "bones");
   return status;
 }

@@ -41,7 +41,7 @@ static sbf_status check(sbfi_conversion *c, const sbf_convert_pin *pin) {
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
         "no mesh of %s has a vertex group or weights on a bone named '%s'", c->scene->file, pin->group);
   if (pin->bone && pin->bone[0] && bone_named(c, pin->bone) == SBF_NONE)
-    return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "no bone '%s' is there to hold group '%s'",
+    return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "no bone '%s' exists to pin group '%s' to",
         pin->bone, pin->group);
   return SBF_OK;
 }

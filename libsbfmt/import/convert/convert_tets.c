@@ -64,16 +64,16 @@ static sbf_status fill_level(sbfi_conversion *c, const sbfi_tet_mesh *mesh, cons
 static void report_repairs(sbfi_conversion *c, const sbfi_tet_mesh *mesh) {
   if (mesh->turned_count)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_TETRAHEDRA_TURNED,
-        "%u tetrahedra were listed the other way round and have been turned", mesh->turned_count);
+        "%u tetrahedra were inverted: their points were reordered", mesh->turned_count);
   if (mesh->flat_count)
     sbfi_convert_warn(
         c, SBF_CODE_IMPORT_TETRAHEDRA_FLAT, "%u tetrahedra without volume were left out", mesh->flat_count);
   if (mesh->repeat_count)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
-        "%u tetrahedra that repeat the four points of another were left out", mesh->repeat_count);
+        "%u tetrahedra with the same four points as another were left out", mesh->repeat_count);
   if (mesh->passed_over)
     sbfi_convert_warn(
-        c, SBF_CODE_IMPORT_IGNORED, "%u elements that are no tetrahedra were passed over", mesh->passed_over);
+        c, SBF_CODE_IMPORT_IGNORED, "%u elements that are not tetrahedra were skipped", mesh->passed_over);
 }
 
 static sbf_status fill_body(sbfi_conversion *c, const sbfi_tet_mesh *mesh, const sbfi_array *triangles,

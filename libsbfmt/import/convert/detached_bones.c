@@ -148,7 +148,8 @@ sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s) {
   for (uint32_t i = 0; i < s->count; i++) {
     if (limbs[i] == SBF_NONE) continue;
     sbfi_convert_warn(c, SBF_CODE_RIG_BONE_REHUNG,
-        "bone '%s' belongs where '%s' ends but hangs on the root, to be moved by hand: it now hangs on '%s'",
+        "bone '%s' is at the end of '%s' but is a child of the root, as a hand-moved control is: it is now a "
+        "child of '%s'",
         c->rig->nodes[s->bones[i].node].name, c->rig->nodes[s->bones[limbs[i]].node].name,
         c->rig->nodes[s->bones[limbs[i]].node].name);
   }

@@ -43,15 +43,14 @@ void sbfi_guess_moduli(sbfi_conversion *c) {
   }
   if (sections.count)
     sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
-        "no material is given for %u section%s: flesh of %.6g kPa is taken%s; give one, as by --material "
-        "muscle",
+        "%u section%s had no material: flesh of %.6g kPa is used%s; choose a material, for example "
+        "--material muscle",
         sections.count, sections.count == 1 ? "" : "s", 1e-3 * sections.max,
         sections.max > sections.min ? " for the thickest" : "");
   if (standing.count)
     sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
-        "no material is given for %u bod%s, too heavy for the usual modulus: %.6g kPa are taken%s; give one, "
-        "as "
-        "by --material rubber",
+        "%u bod%s had no material and would be too heavy for the default modulus: %.6g kPa is used%s; choose "
+        "a material, for example --material rubber",
         standing.count, standing.count == 1 ? "y" : "ies", 1e-3 * standing.max,
         standing.max > standing.min ? " for the largest" : "");
 }

@@ -227,7 +227,8 @@ sbf_status sbfi_propose_limits(sbfi_conversion *c) {
   }
   if (proposed + unknown == 0) return SBF_OK;
   sbfi_convert_warn(c, SBF_CODE_RIG_LIMITS_PROPOSED,
-      "limits are proposed for %u joints; %u have none, for neither name nor place tells what they are",
+      "limits are proposed for %u joints; %u have none, because neither their name nor their position "
+      "identifies them",
       (unsigned)proposed, (unsigned)unknown);
   return SBF_OK;
 }

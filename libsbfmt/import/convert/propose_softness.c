@@ -303,8 +303,9 @@ static sbf_status apply_requests(work *w, const char *const *names, uint32_t cou
       found += strcmp(w->asset->soft_bodies.at[b].name, names[i]) == 0;
     if (!found)
       return sbfi_diagnose(w->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-          "no bone or object on one is called '%s', which is to be %s; sbfmt info lists the bones", names[i],
-          why == SOFT ? "soft" : "rigid");
+          "no bone, and no object attached to a bone, has the name '%s', which should be %s: sbfmt info "
+          "lists the bones",
+          names[i], why == SOFT ? "soft" : "rigid");
   }
   return SBF_OK;
 }
@@ -363,14 +364,15 @@ static void report(const work *w) {
           (unsigned)counts[i], reason_texts[i]);
   if (counts[SOFT] == 0)
     sbfi_convert_warn(w->c, SBF_CODE_SOFTNESS_PROPOSED,
-        "nothing is soft: all %u parts of the skin move with their bones (%s); --soft BONE makes one soft",
+        "nothing is soft: all %u parts of the skin move with their bones (%s); use --soft BONE to make one "
+        "soft",
         (unsigned)all, left);
   else
     sbfi_convert_warn(w->c, SBF_CODE_SOFTNESS_PROPOSED,
-        "%u of %u parts of the skin are soft, of %.4g kPa: %s%s%s%s; --firmness, --soft and --rigid change "
-        "it",
+        "%u of %u parts of the skin are soft, with a modulus of %.4g kPa: %s%s%s%s; change this with "
+        "--firmness, --soft and --rigid",
         (unsigned)counts[SOFT], (unsigned)all, 1e-3 * w->modulus, soft,
-        left[0] ? "; with their bones move " : "", left, "");
+        left[0] ? "; these move with their bones: " : "", left, "");
 }
 
 /* ---- Objects on bones ---- */
@@ -437,8 +439,8 @@ static bool make_props_rigid(const work *w) {
   w->c->asset->soft_bodies.count = kept;
   if (kept == count) return true;
   sbfi_convert_warn(w->c, SBF_CODE_SOFTNESS_PROPOSED,
-      "%u object%s on bones of the skinned character move%s with them as they are; --soft BONE makes one "
-      "soft",
+      "%u object%s attached to bones of the skinned character move%s rigidly with them; use --soft BONE to "
+      "make one soft",
       (unsigned)(count - kept), count - kept == 1 ? "" : "s", count - kept == 1 ? "s" : "");
   return true;
 }

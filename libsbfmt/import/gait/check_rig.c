@@ -29,8 +29,8 @@ sbf_status sbfi_report_other_skeletons(sbfi_conversion *c) {
   for (uint32_t i = 0; i < bones->count; i++)
     if (i != moved && holding[i] >= MIN_HOLDING && holding[i] >= OTHER_FRACTION * holding[moved])
       sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_SKELETON,
-          "the gait moves the skeleton of '%s' alone: that of '%s' with %u bones stands still; if it is "
-          "another character, export each into a file of its own",
+          "the gait moves only the skeleton of '%s', and the skeleton of '%s' with %u bones stands still: if "
+          "it is another character, export each to its own file",
           bones->at[moved].name, bones->at[i].name, holding[i]);
   return SBF_OK;
 }
@@ -117,9 +117,9 @@ sbf_status sbfi_report_lying(sbfi_conversion *c) {
   if (legs == DOWN || (p.leg_count == BIPED_LEGS && !is_head_opposite(c->asset, &p))) return SBF_OK;
   int up = file_axis(c, sbfi_d3_scale(p.legs, -1));
   bool helps = c->rig == c->scene && (up == UP_Y || up == UP_Z);
-  sbfi_convert_warn(c, SBF_CODE_RIG_LIES, "its legs point along %s and not down, as if it %s: %s%s",
+  sbfi_convert_warn(c, SBF_CODE_RIG_LIES, "its legs point along %s instead of down, as if it %s: %s%s",
       axes[legs], legs == UP_Y ? "stood on its head" : "lay",
-      helps ? "stand it up with --up " : "turn it upright in its program and export it again",
+      helps ? "stand it up with --up " : "rotate it upright in its program and export it again",
       !helps       ? ""
       : up == UP_Y ? "y"
                    : "z");

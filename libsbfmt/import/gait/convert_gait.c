@@ -18,7 +18,8 @@ static bool know_ids(sbfi_conversion *c) {
 sbf_status sbf_convert_gait(sbf_asset *asset, const sbf_convert_options *options, sbf_diagnostic *error) {
   sbf_convert_options taken = {.struct_size = 0};
   if (!sbfi_options_copy(&taken, sizeof taken, options))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbf_convert_options has a size that no version of the library had: initialize it with the defaults");
   static const sbfi_scene nowhere = {.file = ""};
   sbfi_conversion c = {.scene = &nowhere,
       .asset = asset,

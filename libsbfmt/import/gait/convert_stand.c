@@ -48,10 +48,12 @@ sbf_status sbf_convert_stand(const sbf_asset *asset, const sbf_convert_options *
     sbf_convert_stance *stance, int32_t *hangs_on, sbf_diagnostic *error) {
   sbf_convert_options taken = {.struct_size = 0};
   if (!sbfi_options_copy(&taken, sizeof taken, options))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbf_convert_options has a size that no version of the library had: initialize it with the defaults");
   sbf_convert_stance found = {.struct_size = stance->struct_size ? stance->struct_size : sizeof found};
   if (found.struct_size != sizeof found)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_stance has a size that no version had");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbf_convert_stance has a size that no version of the library had: set its size member");
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, taken.allocator, 0);
   bool good = asset->bones.count == 0 || find_stance(asset, &scratch, &found, hangs_on);

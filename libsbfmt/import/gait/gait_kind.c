@@ -53,7 +53,8 @@ static void report_kind(sbfi_conversion *c, const sbfi_locomotion *found) {
     sbfi_convert_warn(c, SBF_CODE_GAIT_KIND, "its gait is %s: %s", sbfi_locomotion_name(found->kind), first);
   else
     sbfi_convert_warn(c, SBF_CODE_GAIT_KIND_UNSURE,
-        "its gait is not clear: %s was taken (%s), %s is nearly as likely (%s); --gait KIND says which",
+        "its gait is unclear: %s was chosen (%s), but %s is almost as likely (%s); state one with --gait "
+        "KIND",
         sbfi_locomotion_name(found->kind), first, sbfi_locomotion_name(found->second), second);
 }
 

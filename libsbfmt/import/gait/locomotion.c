@@ -107,9 +107,9 @@ static bool hovers(const evaluation *j) {
 static void score_position(evaluation *j) {
   double low = j->points.low[1];
   if (hovers(j) && (j->wings || !j->is_row))
-    add(j, SBFI_LOCOMOTION_FLY, 2.5, "it has no legs and hovers above y = 0");
+    add(j, SBFI_LOCOMOTION_FLY, 2.5, "it has no legs and is above y = 0");
   if (low < -0.15 * j->height && j->holding >= 4)
-    add(j, SBFI_LOCOMOTION_SWIM, 2, "it is modelled about y = 0, not on it");
+    add(j, SBFI_LOCOMOTION_SWIM, 2, "it is modelled around y = 0, not above it");
 }
 
 /* Topmost ancestor of a bone. */
@@ -199,17 +199,17 @@ static void score_wheels(evaluation *j) {
   }
   j->wheels = round;
   if (loops >= 8)
-    add(j, SBFI_LOCOMOTION_ROLL, 6, "%u bones stand in upright loops, as links of tracks", loops);
+    add(j, SBFI_LOCOMOTION_ROLL, 6, "%u bones form upright loops, as links of tracks do", loops);
   if (round >= 2)
     add(j, SBFI_LOCOMOTION_ROLL, round >= 4 ? 5 : 2 + 0.5 * (round - 2), "%u discs touch the ground", round);
 }
 
 static void score_size(evaluation *j) {
   bool grounded = fabs(j->points.low[1]) < 0.05 * j->height;
-  add(j, SBFI_LOCOMOTION_NONE, 0.5, "nothing has to move");
+  add(j, SBFI_LOCOMOTION_NONE, 0.5, "it has nothing to move");
   if (j->holding <= 3 && !j->paired)
-    add(j, SBFI_LOCOMOTION_NONE, 2.2, "only %u bone%s something", j->holding,
-        j->holding == 1 ? " holds" : "s hold");
+    add(j, SBFI_LOCOMOTION_NONE, 2.2, "only %u bone%s vertices", j->holding,
+        j->holding == 1 ? " moves" : "s move");
   if (j->draft.has_mesh && !j->legs && !j->wings && grounded && j->holding >= 4 && j->holding <= 10)
     add(j, SBFI_LOCOMOTION_CRAWL, 2, "it rests on the ground without legs");
 }
@@ -225,15 +225,15 @@ static void score_joints(evaluation *j) {
     for (int w = 0; w < SBFI_WORDS; w++) counts[w] += words >> w & 1;
   }
   if (counts[SBFI_WORD_LEG] >= 2)
-    add(j, SBFI_LOCOMOTION_WALK, 3, "%u bones are named as of legs", counts[SBFI_WORD_LEG]);
+    add(j, SBFI_LOCOMOTION_WALK, 3, "%u bones are named like legs", counts[SBFI_WORD_LEG]);
   if (counts[SBFI_WORD_FIN] >= 2)
-    add(j, SBFI_LOCOMOTION_SWIM, 3, "%u bones are named as fins", counts[SBFI_WORD_FIN]);
+    add(j, SBFI_LOCOMOTION_SWIM, 3, "%u bones are named like fins", counts[SBFI_WORD_FIN]);
   if (counts[SBFI_WORD_WING] >= 2)
-    add(j, SBFI_LOCOMOTION_FLY, 3.5, "%u bones are named as wings", counts[SBFI_WORD_WING]);
+    add(j, SBFI_LOCOMOTION_FLY, 3.5, "%u bones are named like wings", counts[SBFI_WORD_WING]);
   if (counts[SBFI_WORD_WHEEL] >= 2)
-    add(j, SBFI_LOCOMOTION_ROLL, counts[SBFI_WORD_WHEEL] >= 4 ? 4 : 3, "%u bones are named as wheels",
+    add(j, SBFI_LOCOMOTION_ROLL, counts[SBFI_WORD_WHEEL] >= 4 ? 4 : 3, "%u bones are named like wheels",
         counts[SBFI_WORD_WHEEL]);
-  if (counts[SBFI_WORD_SNAKE]) add(j, SBFI_LOCOMOTION_SLITHER, 2, "a bone is named as a snake's");
+  if (counts[SBFI_WORD_SNAKE]) add(j, SBFI_LOCOMOTION_SLITHER, 2, "a bone is named like a snake's");
 }
 
 static void score_things(evaluation *j, const sbfi_locomotion_names *names) {
@@ -241,19 +241,20 @@ static void score_things(evaluation *j, const sbfi_locomotion_names *names) {
   for (uint32_t i = 0; i < names->thing_count; i++) words |= sbfi_words_of(names->things[i]);
   for (uint32_t i = 0; i < j->draft.asset->bones.count; i++)
     of_bones |= sbfi_words_of(j->draft.asset->bones.at[i].name);
-  if (words >> SBFI_WORD_FIN & 1) add(j, SBFI_LOCOMOTION_SWIM, 2, "an object or material is named as fins");
-  if (words >> SBFI_WORD_WING & 1) add(j, SBFI_LOCOMOTION_FLY, 1, "an object or material is named as wings");
+  if (words >> SBFI_WORD_FIN & 1) add(j, SBFI_LOCOMOTION_SWIM, 2, "an object or material is named like fins");
+  if (words >> SBFI_WORD_WING & 1)
+    add(j, SBFI_LOCOMOTION_FLY, 1, "an object or material is named like wings");
   if (words >> SBFI_WORD_WHEEL & 1)
-    add(j, SBFI_LOCOMOTION_ROLL, 1.5, "an object or material is named as wheels");
+    add(j, SBFI_LOCOMOTION_ROLL, 1.5, "an object or material is named like wheels");
   if (words >> SBFI_WORD_SNAKE & 1)
-    add(j, SBFI_LOCOMOTION_SLITHER, 3, "an object or material is named as a snake");
-  if (words >> SBFI_WORD_FISH & 1) add(j, SBFI_LOCOMOTION_SWIM, 2, "it is named as an animal that swims");
-  if (words >> SBFI_WORD_BIRD & 1) add(j, SBFI_LOCOMOTION_FLY, 2, "it is named as something that flies");
-  if (words >> SBFI_WORD_VEHICLE & 1) add(j, SBFI_LOCOMOTION_ROLL, 2, "it is named as a vehicle");
-  if (words >> SBFI_WORD_WALKER & 1) add(j, SBFI_LOCOMOTION_WALK, 1, "it is named as something with legs");
+    add(j, SBFI_LOCOMOTION_SLITHER, 3, "an object or material is named like a snake");
+  if (words >> SBFI_WORD_FISH & 1) add(j, SBFI_LOCOMOTION_SWIM, 2, "it is named like a swimming animal");
+  if (words >> SBFI_WORD_BIRD & 1) add(j, SBFI_LOCOMOTION_FLY, 2, "it is named like something that flies");
+  if (words >> SBFI_WORD_VEHICLE & 1) add(j, SBFI_LOCOMOTION_ROLL, 2, "it is named like a vehicle");
+  if (words >> SBFI_WORD_WALKER & 1) add(j, SBFI_LOCOMOTION_WALK, 1, "it is named like something with legs");
   bool has_spine = of_bones & (1u << SBFI_WORD_SPINE | 1u << SBFI_WORD_LEG | 1u << SBFI_WORD_WING);
   if ((words | of_bones) >> SBFI_WORD_THING & 1 && !has_spine)
-    add(j, SBFI_LOCOMOTION_NONE, 2, "it is named as a thing");
+    add(j, SBFI_LOCOMOTION_NONE, 2, "it is named like an object");
 }
 
 /* A walking clip counts for legs only if there are legs. */

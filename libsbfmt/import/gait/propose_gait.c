@@ -217,8 +217,8 @@ static bool propose_other(sbfi_conversion *c, sbfi_locomotion_kind kind) {
 
 static void report_no_legs(sbfi_conversion *c) {
   sbfi_convert_warn(c, SBF_CODE_RIG_NO_LEGS,
-      "no two limbs of the rig come down to the ground: no gait is proposed, and the character moves as a "
-      "whole; --gait KIND proposes one of another kind");
+      "fewer than two limbs of the rig reach the ground: no gait is proposed and the character moves as a "
+      "whole; choose another kind with --gait KIND");
 }
 
 /* Proposes hopping for characters that should walk but have no legs. */
@@ -229,7 +229,7 @@ static bool propose_walk(sbfi_conversion *c) {
     return sbfi_draft_row(&d) && sbfi_draft_ends(&d) && write_gait(c, &d);
   if (c->locomotion && c->locomotion->second == SBFI_LOCOMOTION_CRAWL) {
     sbfi_convert_warn(c, SBF_CODE_GAIT_KIND,
-        "its gait is crawl and not walk: no two limbs of the rig come down to the ground");
+        "its gait is crawl instead of walk, because fewer than two limbs of the rig reach the ground");
     return propose_other(c, SBFI_LOCOMOTION_CRAWL);
   }
   report_no_legs(c);

@@ -214,11 +214,11 @@ static bool propose(sbfi_conversion *c, sbf_gait *gait) {
     gait->rest_pose = 0;
     if (idle)
       sbfi_convert_warn(c, SBF_CODE_REST_POSE_PROPOSED,
-          "it stands and moves in the first frame of clip '%s'; its shape is that of the bind pose",
+          "it stands and moves in the pose of the first frame of clip '%s'; its rest shape is the bind pose",
           idle->name);
     else
       sbfi_convert_warn(c, SBF_CODE_REST_POSE_PROPOSED,
-          "its arms, which the rig holds out, hang: no clip shows it standing");
+          "its arms, which point sideways in the rig, were lowered, because no clip shows it standing");
   }
   if (arm_count == 2) {
     if (!write_swings(c, gait, arms, arm_count, &rest, &poses[count])) return false;

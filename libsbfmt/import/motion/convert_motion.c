@@ -35,12 +35,13 @@ sbf_status sbf_convert_motion(
     sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error) {
   sbf_convert_options taken = {.struct_size = 0};
   if (!sbfi_options_copy(&taken, sizeof taken, options))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbf_convert_options has a size that no version of the library had: initialize it with the defaults");
   sbfi_reporter reporter = {taken.report, taken.user, 0, 0};
   sbf_asset *from = NULL;
   if (asset->bones.count == 0)
     return sbfi_diagnose(
-        error, SBF_CODE_IMPORT_MOTION_NONE, "%s: there is no skeleton to move: give one with --rig", file);
+        error, SBF_CODE_IMPORT_MOTION_NONE, "%s: there is no skeleton to move: add one with --rig", file);
   sbf_status status = read_motion(file, &taken, &reporter, &from, error);
   if (status != SBF_OK) return status;
   status = sbfi_retarget_clips(asset, from, file, taken.allocator, &reporter, error);

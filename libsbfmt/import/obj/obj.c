@@ -64,7 +64,7 @@ static bool read_longest(materials *m, sbfi_span *rest, bool *found) {
 static bool warn_of_library(materials *m, sbfi_span name) {
   m->library_missing = true;
   return sbfi_scene_warn(m->scene, SBF_CODE_IMPORT_MATERIALS_MISSING, 0,
-      "the material library \"%s\" cannot be read: its materials are grey; put it beside the OBJ file",
+      "the material library \"%s\" cannot be read, so its materials are grey: put it beside the OBJ file",
       sbfi_quote_of(name).text);
 }
 
@@ -104,7 +104,8 @@ static bool read_materials(materials *m) {
   for (uint32_t i = 0; i < count; i++)
     if (!m->described[i] && m->text->libraries.count && !m->library_missing &&
         !sbfi_scene_warn(scene, SBF_CODE_IMPORT_MATERIALS_MISSING, 0,
-            "no material library describes \"%s\": it is grey", m->at[i].name))
+            "no material library defines \"%s\", so it is grey: export the OBJ file again with its library",
+            m->at[i].name))
       return false;
   scene->materials = m->at;
   scene->material_count = count;
@@ -126,10 +127,10 @@ static sbf_status fill(
   if (!text->polygons.count) {
     const char *why = !text->points.count ? "it has no vertices: export the mesh again"
                       : is_free_form(text)
-                          ? "it has free-form curves and surfaces alone: export it as a polygon "
-                            "mesh, as Blender does after Convert to Mesh"
-                          : "its vertices are joined by no face: export polygons, not points or edges alone";
-    return sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the OBJ file holds no surface: %s", why);
+                          ? "it has only free-form curves and surfaces: export it as a polygon mesh, for "
+                            "example from Blender after Convert to Mesh"
+                          : "it has vertices but no faces: export polygons, not only points or edges";
+    return sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the OBJ file has no surface: %s", why);
   }
   sbf_status status = sbfi_obj_divide(scene, text, allocator, error);
   if (status) return status;
@@ -140,14 +141,13 @@ static sbf_status fill(
   sbfi_array_free(&m.images);
   sbfi_arena_free(&m.scratch);
   if (!good) return out_of_memory(error);
-  if (text->ignored_count &&
-      !sbfi_scene_warn(scene, SBF_CODE_IMPORT_IGNORED, text->ignored_line,
-          "%u lines of kinds that make no polygon are passed over, the first is \"%s\"", text->ignored_count,
-          sbfi_quote_of(text->ignored_keyword).text))
+  if (text->ignored_count && !sbfi_scene_warn(scene, SBF_CODE_IMPORT_IGNORED, text->ignored_line,
+                                 "%u lines that do not define polygons are skipped, the first is \"%s\"",
+                                 text->ignored_count, sbfi_quote_of(text->ignored_keyword).text))
     return out_of_memory(error);
   if (text->colored_count &&
       !sbfi_scene_warn(scene, SBF_CODE_IMPORT_IGNORED, text->colored_line,
-          "the colors of %u vertices are left out: give the character as PLY or glTF to keep them",
+          "the colors of %u vertices are left out: export the character as PLY or glTF to keep them",
           text->colored_count))
     return out_of_memory(error);
   return SBF_OK;

@@ -303,7 +303,7 @@ static bool divide(division *d) {
   scene->meshes = meshes;
   scene->node_count = scene->mesh_count = d->mesh_count;
   return !left_out || sbfi_scene_warn(scene, SBF_CODE_IMPORT_POINTS_LEFT_OUT, 0,
-                          "%u vertices that no face uses belong to no object and are left out", left_out);
+                          "%u vertices that no face uses are left out", left_out);
 }
 
 sbf_status sbfi_obj_divide(

@@ -134,13 +134,13 @@ static sbf_status number_refused(reader *r, sbfi_number_status status, const cha
   if (status == SBFI_NUMBER_OUT_OF_RANGE || is_not_finite_text(word))
     return located(r,
         sbfi_diagnose(r->error, SBF_CODE_IMPORT_NOT_FINITE,
-            "\"%s\" in a line \"%s\" is no finite number of single precision: export the file again",
+            "\"%s\" in a line \"%s\" is not a finite number in single precision: export the file again",
             sbfi_quote_of(word).text, keyword),
         r->line);
   return located(r,
-      sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX, "\"%s\" stands where a line \"%s\" needs a number%s",
+      sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX, "found \"%s\" where a line \"%s\" needs a number%s",
           sbfi_quote_of(word).text, keyword,
-          memchr(word.at, ',', word.length) ? ": write it with a point, not a comma" : ""),
+          memchr(word.at, ',', word.length) ? ": use a decimal point, not a comma" : ""),
       r->line);
 }
 
@@ -230,7 +230,7 @@ static sbf_status index_refused(reader *r, uint32_t kind, int64_t value, uint32_
   if (value == 0)
     return located(r,
         sbfi_diagnose(
-            r->error, SBF_CODE_IMPORT_INDEX, "a face refers to %s 0: they are counted from 1", name),
+            r->error, SBF_CODE_IMPORT_INDEX, "a face refers to %s 0, but they are counted from 1", name),
         line);
   return located(r,
       sbfi_diagnose(r->error, SBF_CODE_IMPORT_INDEX,
@@ -254,7 +254,7 @@ static sbf_status read_index(reader *r, uint32_t kind, int32_t *index) {
   if (r->at == first) {
     r->at = word;
     return located(r,
-        sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX, "\"%s\" stands where a face needs an index",
+        sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX, "found \"%s\" where a face needs an index",
             sbfi_quote_of((sbfi_span){word, word_length(r)}).text),
         r->line);
   }
@@ -288,7 +288,7 @@ static sbf_status read_corner(reader *r) {
     r->at = word;
     return located(r,
         sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX,
-            "\"%s\" is no corner of a face, as 1, 1/2, 1//3 or 1/2/3",
+            "\"%s\" is not a corner of a face: it must look like 1, 1/2, 1//3 or 1/2/3",
             sbfi_quote_of((sbfi_span){word, word_length(r)}).text),
         r->line);
   }
@@ -311,7 +311,7 @@ static sbf_status read_face(reader *r) {
     if (text->corners.count - first > MAX_CORNERS)
       return located(r,
           sbfi_diagnose(r->error, SBF_CODE_IMPORT_POLYGON,
-              "a face has more than %d corners: divide it, as by triangulating it where it was made",
+              "a face has more than %d corners: divide it, for example by triangulating the mesh",
               MAX_CORNERS),
           line);
   }
@@ -418,7 +418,8 @@ static sbf_status nul_refused(reader *r, const char *bytes, const char *nul) {
   for (const char *at = bytes; at < nul; at++) line += *at == r->line_end;
   return located(r,
       sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX,
-          "byte %zu of the file is 0, which no OBJ text holds: the file is damaged or of another format",
+          "byte %zu of the file is 0, which an OBJ text never contains: the file is damaged or has another "
+          "format",
           (size_t)(nul - bytes)),
       line);
 }

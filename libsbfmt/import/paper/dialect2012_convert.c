@@ -95,15 +95,15 @@ static sbf_status fill_render_mesh(
     if (counts.normals == surface->corners.count)
       status = fill_normals(c, surface, mesh);
     else
-      sbfi_convert_warn(
-          c, SBF_CODE_IMPORT_IGNORED, "only some corners of the faces have normals: all are left out");
+      sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
+          "only some corners of the faces have normals: all normals are left out");
   }
   if (status == SBF_OK && counts.coordinates) {
     if (counts.coordinates == surface->corners.count)
       status = fill_coordinates(c, surface, mesh);
     else
       sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
-          "only some corners of the faces have texture coordinates: all are left out");
+          "only some corners of the faces have texture coordinates: all of them are left out");
   }
   return status;
 }
@@ -257,10 +257,10 @@ sbf_status sbfi_convert_paper(sbfi_conversion *c, const sbfi_paper_model *model,
   uint32_t count = (uint32_t)model->soft_bodies.count;
   if (!count && !model->rigid_bodies.count)
     return sbfi_diagnose(
-        c->error, SBF_CODE_IMPORT_EMPTY, "%s holds neither a soft body nor a rigid one", c->scene->file);
+        c->error, SBF_CODE_IMPORT_EMPTY, "%s has neither a soft body nor a rigid body", c->scene->file);
   if (model->ignored_count)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
-        "%u elements that the dialect does not have are passed over, the first is <%s> on line %u",
+        "%u elements that the dialect does not have are skipped, the first is <%s> on line %u",
         model->ignored_count, model->ignored_name, model->ignored_line);
   sbf_status status = sbfi_convert_paper_skeleton(c, model);
   if (status != SBF_OK || !count) return status;

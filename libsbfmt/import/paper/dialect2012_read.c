@@ -131,7 +131,7 @@ static sbfi_span value_of(attribute_list attributes, const char *name) {
 
 static bool read_f32(paper_reader *r, sbfi_span text, const char *name, float *value) {
   if (text.at && sbfi_parse_f32(text.at, text.length, value) == SBFI_NUMBER_READ) return true;
-  return fail(r, SBF_CODE_XML_BAD_VALUE, "%s is no number: \"%s\"", name, sbfi_quote_of(text).text);
+  return fail(r, SBF_CODE_XML_BAD_VALUE, "%s is not a number: \"%s\"", name, sbfi_quote_of(text).text);
 }
 
 /* `fallback` is the value of a missing attribute; 0: it is required. */
@@ -141,7 +141,8 @@ static bool read_id(
   *value = fallback;
   if (!text.at && fallback) return true;
   if (text.at && sbfi_parse_u32(text.at, text.length, value) == SBFI_NUMBER_READ && *value > 0) return true;
-  return fail(r, SBF_CODE_XML_BAD_VALUE, "%s is no number from 1 on: \"%s\"", name, sbfi_quote_of(text).text);
+  return fail(
+      r, SBF_CODE_XML_BAD_VALUE, "%s is not a whole number above 0: \"%s\"", name, sbfi_quote_of(text).text);
 }
 
 static bool read_item(paper_reader *r, sbfi_paper_items *items, attribute_list attributes,
@@ -202,8 +203,8 @@ static bool read_limit(paper_reader *r, attribute_list attributes) {
   uint32_t word = 0;
   while (word < field->value_count && !(target.at && sbfi_span_is(target, field->values[word]))) word++;
   if (word == field->value_count)
-    return fail(
-        r, SBF_CODE_XML_BAD_VALUE, "\"%s\" is no motion that a joint can limit", sbfi_quote_of(target).text);
+    return fail(r, SBF_CODE_XML_BAD_VALUE, "\"%s\" is not a motion that a joint can limit",
+        sbfi_quote_of(target).text);
   sbfi_paper_limit *limit = push(r, &r->model->limits);
   if (!limit || !read_f32(r, value_of(attributes, "angle"), "angle", &limit->angle)) return false;
   limit->target = (sbf_joint_axis)word;
@@ -349,10 +350,10 @@ static bool on_text(void *user, const char *text, size_t length) {
   paper_reader *r = user;
   if (r->passed_over_depth || !r->depth || r->stack[r->depth - 1] != ATTRIBUTE) {
     if (r->passed_over_depth || sbfi_span_trim((sbfi_span){text, length}).length == 0) return true;
-    return fail(r, SBF_CODE_XML_STRAY_TEXT, "text stands where only elements belong");
+    return fail(r, SBF_CODE_XML_STRAY_TEXT, "found text where only elements are allowed");
   }
   if (length > NUMBER_TEXT - r->text_length)
-    return fail(r, SBF_CODE_XML_BAD_VALUE, "%s is no number", attribute_names[r->attribute]);
+    return fail(r, SBF_CODE_XML_BAD_VALUE, "%s is not a number", attribute_names[r->attribute]);
   memcpy(r->text + r->text_length, text, length);
   r->text_length += length;
   return true;

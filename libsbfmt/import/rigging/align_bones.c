@@ -319,9 +319,8 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
   bool may_be_moved =
       s->r->rig.mesh.positions.count == 0 && rig->clip_count > 0 && strcmp(rig->format, "bvh") != 0;
   return sbfi_diagnose(s->r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
-      "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig%s, "
-      "or "
-      "--unit, --up and --forward",
+      "only %.0f %% of the bones' length is inside the mesh; outside are %s; use this character's rig%s, or "
+      "state --unit, --up and --forward",
       100 * s->best.fraction, outside,
       may_be_moved ? ", exported in its rest pose (its clips may have moved it) or with its mesh" : "");
 }
@@ -331,9 +330,9 @@ static sbf_status warn_of_misfit(const search *s, sbfi_arena *arena) {
   char outside[260] = "";
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
   sbfi_convert_warn(s->r->c, SBF_CODE_RIG_OTHER_MESH,
-      "only %.0f %% of the bones' length lies inside the mesh; outside lie %s: if limbs of the rig stand "
-      "otherwise or it is another character's, give a rig in the pose of the mesh; --weights compute takes "
-      "these bones as they lie",
+      "only %.0f %% of the bones' length is inside the mesh; outside are %s: if the rig has another pose or "
+      "belongs to another character, use a rig in the pose of the mesh; if it is right, use --weights "
+      "compute",
       100 * s->best.fraction, outside[0] ? outside : "bones on its surface");
   return SBF_OK;
 }
@@ -352,7 +351,7 @@ static void scale_rig(sbfi_rigging *r) {
     for (int row = 0; row < 3; row++)
       for (int k = 0; k < 4; k++) matrices[i]->at[row][k] *= factor;
   sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
-      "%s states no unit: it was scaled by %.6g, so that its bones lie inside the input", r->rig.scene->file,
+      "%s states no unit: it was scaled by %.6g, so that its bones are inside the input", r->rig.scene->file,
       factor);
 }
 
@@ -413,8 +412,7 @@ static uint32_t collect_candidates(search *s, sbfi_limb_candidate to[MAX_CANDIDA
 
 static void report_rotated(const search *s, const sbfi_limb_alignment *found) {
   sbfi_convert_warn(s->r->c, SBF_CODE_RIG_ALIGNED,
-      "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
-      "hangs on it",
+      "the rig has another pose than the input: limbs were rotated with their children to fit inside it, %s",
       found->names);
 }
 
@@ -438,17 +436,16 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
         100 * uncovered_fraction(s));
   if (c->options->weights) {
     sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_MESH,
-        "with its limbs turned, %.0f %% of the length of the rig's bones lies inside the mesh; outside lie "
-        "%s: look at the bones in --report; a rig in the pose of the input needs no turn",
+        "after its limbs were rotated, %.0f %% of the length of the rig's bones is inside the mesh; outside "
+        "are %s: check the bones in --report, or use a rig in the pose of the input",
         100 * s->best.fraction, outside);
     return SBF_OK;
   }
   if (!sbfi_show_misfit(s->r, &s->best.m)) return sbfi_convert_no_memory(c);
   shorten_names(found->names);
   return sbfi_diagnose(c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
-      "the rig stands otherwise than the mesh, and its limbs were not all found: with %s turned, %.0f %% of "
-      "the bones' length lies inside; outside lie %s; pose the mesh as the rig; --weights compute takes the "
-      "bones so",
+      "the rig has another pose than the mesh, and not all limbs were found: after %s were rotated, %.0f %% "
+      "of the bones' length is inside; outside are %s; give both the same pose, or use --weights compute",
       found->names, 100 * s->best.fraction, outside);
 }
 

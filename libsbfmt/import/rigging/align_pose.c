@@ -70,14 +70,13 @@ static void report_pose(const sbfi_pose_fit *f, const sbfi_pose_gaps *gaps) {
   size_t used = strlen(text);
   if (count > named) snprintf(text + used, sizeof text - used, " and %u more by less", count - named);
   sbfi_convert_warn(f->r->c, SBF_CODE_RIG_ALIGNED,
-      "the input stands otherwise than the mesh of %s: bones were turned to meet it, %s, each with all that "
-      "hangs on it",
+      "the input has another pose than the mesh of %s: bones were rotated with their children to match it, "
+      "%s",
       f->r->rig.scene->file, text);
   if (gaps->input_beside > DOUBTFUL)
     sbfi_convert_warn(f->r->c, SBF_CODE_RIG_OTHER_MESH,
-        "in that pose %.0f %% of the input's surface still lies beside the mesh of %s: look at its limbs in "
-        "--report; if "
-        "they follow wrong bones, give the input in the pose of the rig's mesh",
+        "in that pose %.0f %% of the input's surface is still away from the mesh of %s: check its limbs in "
+        "--report; if they follow wrong bones, use an input in the pose of the rig's mesh",
         100 * gaps->input_beside, f->r->rig.scene->file);
 }
 

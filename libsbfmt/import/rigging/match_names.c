@@ -121,6 +121,6 @@ void sbfi_weigh_by_own_skin(sbfi_rigging *r) {
   for (uint32_t m = 0; m < scene->mesh_count; m++)
     if (scene->meshes[m].joint_count && !weigh_by_joints(r, m))
       sbfi_convert_warn(r->c, SBF_CODE_IMPORT_IGNORED,
-          "the skin of object '%s' names bones that the rig does not have: its weights are left out",
+          "the skin of object '%s' names bones that the rig does not have, so its weights are left out",
           scene->nodes[scene->meshes[m].node].name);
 }

@@ -152,11 +152,9 @@ static void report_object(const separation_search *a, uint32_t mesh) {
   size_t used = strlen(names);
   if (count > NAMED) snprintf(names + used, sizeof names - used, " and %u more", count - NAMED);
   sbfi_convert_warn(a->r->c, SBF_CODE_RIG_OBJECT_APART,
-      "%u of %u shells of the object '%.60s' lie apart from the rig of %s, the nearest by %.3g m: %s, with "
-      "%u of its %u "
-      "points; they follow the nearest bones: if they are another character, convert it from a file of its "
-      "own with its "
-      "own rig; --shell gives one to a bone",
+      "%u of %u shells of the object '%.60s' are apart from the rig of %s, the nearest by %.3g m: %s, with "
+      "%u of its %u points; they follow the nearest bones: if they are another character, convert it "
+      "separately with its own rig, or assign a shell to a bone with --shell",
       count, pieces, a->r->names[mesh], a->r->rig.scene->file, nearest, names, points, to - from);
 }
 

@@ -66,29 +66,29 @@ static uint32_t count_points(const sbfi_rigging *r, sbfi_weight_source source) {
 }
 
 static void report_alignment(const sbfi_rigging *r) {
-  char pose[120] = "when it was saved, in the middle of a movement";
+  char pose[120] = "at the time it was saved, in mid-motion";
   if (r->alignment.pose_clip)
     snprintf(pose, sizeof pose, "%.3f s after the start of its clip '%.60s'", r->alignment.pose_s,
         r->alignment.pose_clip->name);
   if (r->alignment.pose_worlds)
     sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
-        "the input stands as %s %s: it was taken back to the pose in which the rig's skin was bound",
+        "the input has the pose of %s %s: it was moved back to the bind pose of the rig's skin",
         r->rig.scene->file, pose);
   if (r->alignment.is_stated) return;
   double size = r->rig.size > 0 ? r->rig.size : r->input.size * sbfi_similarity_scale(&r->alignment.to_asset);
   sbfi_similarity_text text = sbfi_similarity_describe(&r->alignment.to_asset, size);
   if (text.at[0])
     sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
-        "the input was laid over the rig: %s; --unit, --up and --forward say otherwise", text.at);
+        "the input was aligned with the rig: %s; change this with --unit, --up and --forward", text.at);
 }
 
 static const char *const SOURCE_TEXTS[SBFI_WEIGHTS_SOURCES] = {[SBFI_WEIGHTS_NONE] = "have none",
-    [SBFI_WEIGHTS_NAMED] = "by the names of objects or bones",
-    [SBFI_WEIGHTS_MATCHED] = "of the rig's own mesh, by place",
-    [SBFI_WEIGHTS_CARRIED] = "carried over from the nearest surface of the rig's mesh",
-    [SBFI_WEIGHTS_ATTACHED] = "of the bone that their piece touches",
+    [SBFI_WEIGHTS_NAMED] = "from the names of objects or bones",
+    [SBFI_WEIGHTS_MATCHED] = "from the same positions of the rig's mesh",
+    [SBFI_WEIGHTS_CARRIED] = "from the nearest surface of the rig's mesh",
+    [SBFI_WEIGHTS_ATTACHED] = "from the bone that their piece touches",
     [SBFI_WEIGHTS_COMPUTED] = "computed from the bones",
-    [SBFI_WEIGHTS_FROM_FILE] = "from the file of weights"};
+    [SBFI_WEIGHTS_FROM_FILE] = "from the weights file"};
 
 static void report_weights(const sbfi_rigging *r) {
   char text[400] = "";
@@ -97,7 +97,7 @@ static void report_weights(const sbfi_rigging *r) {
     size_t used = strlen(text);
     if (count) snprintf(text + used, sizeof text - used, "%s%u %s", used ? ", " : "", count, SOURCE_TEXTS[s]);
   }
-  sbfi_convert_warn(r->c, SBF_CODE_RIG_WEIGHTS, "weights of %u points: %s; --weights chooses another way",
+  sbfi_convert_warn(r->c, SBF_CODE_RIG_WEIGHTS, "weights of %u points: %s; change this with --weights",
       r->input.mesh.positions.count, text);
 }
 
@@ -140,8 +140,8 @@ static void assign_nearest_bone(sbfi_rigging *r, const sbfi_scene_surface *moved
   int32_t bone = nearest_bone(r->c->asset, middle);
   r->carriers[mesh] = (int32_t)r->c->node_of_bone[bone];
   sbfi_convert_warn(r->c, SBF_CODE_RIG_SECTION_GUESSED,
-      "object '%s' hangs on no bone of the rig by name: it was given to the nearest, '%s'; name it as its "
-      "node in the rig if that is wrong",
+      "the name of object '%s' matches no bone of the rig: it was assigned to the nearest, '%s'; if that is "
+      "wrong, name it like its node in the rig",
       r->names[mesh], r->c->asset->bones.at[bone].name);
 }
 
@@ -248,16 +248,15 @@ static uint32_t count_open(const sbfi_rigging *r) {
 
 static sbf_status refuse_match(const sbfi_rigging *r) {
   return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
-      "--weights match: %u of %u points of %s lie on no point of the meshes of %s, however it is turned and "
-      "scaled; --weights transfer takes the nearest surface instead",
+      "--weights match: %u of %u points of %s match no point of the meshes of %s in any rotation and scale; "
+      "use --weights transfer, which takes the nearest surface",
       count_open(r), r->input.mesh.positions.count, r->input.scene->file, r->rig.scene->file);
 }
 
 static sbf_status refuse_transfer(const sbfi_rigging *r, double fraction) {
   return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
-      "--weights transfer: only %.0f %% of the points of %s lie beside a surface of %s that has weights; "
-      "give "
-      "the rig of this character, or --weights compute",
+      "--weights transfer: only %.0f %% of the points of %s are near a surface of %s with weights; use the "
+      "rig of this character, or --weights compute",
       100 * fraction, r->input.scene->file, r->rig.scene->file);
 }
 
@@ -281,8 +280,8 @@ static sbf_status weigh_beside(
 /* Unmatched names are only assigned to the nearest bone if other objects have matching names. */
 static sbf_status refuse_nameless(const sbfi_rigging *r) {
   return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
-      "--weights named: no object of %s has the name of a node or bone of %s; name its objects as those, or "
-      "leave the choice to the program: without --weights",
+      "--weights named: no object of %s has the name of a node or bone of %s; rename the objects, or leave "
+      "out --weights",
       r->input.scene->file, r->rig.scene->file);
 }
 
@@ -369,11 +368,9 @@ static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
   double median = count ? gaps[count / 2] : 0;
   if (median > SAME_MEDIAN || beside > SAME_BESIDE * SBFI_POSE_SAMPLES)
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
-        "the mesh of %s resembles the input, but half of the input's surface lies farther from it than %.2g "
-        "%% of its "
-        "size, and %.0f %% of it farther than %.2g %%: it may be another character's; give the rig of this "
-        "character, or "
-        "--weights transfer if it is right",
+        "the mesh of %s resembles the input, but half of the input's surface is farther from it than %.2g %% "
+        "of its size, and %.0f %% of it farther than %.2g %%: it may belong to another character; use the "
+        "rig of this character, or --weights transfer if it is right",
         r->rig.scene->file, 100 * median, 100.0 * beside / SBFI_POSE_SAMPLES, 100 * SBFI_ON_SURFACE);
   sbfi_pose_fit_end(&f);
   sbfi_arena_free(&scratch);
@@ -396,10 +393,9 @@ static void warn_of_attached(const sbfi_rigging *r, weights_mode mode) {
   }
   if (mode != MODE_ANY || beside <= MANY_ATTACHED * count) return;
   sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
-      "%u of %u points lie beside the mesh of %s, and each of their pieces moves as a whole with the bone "
-      "that it touches: "
-      "if they are limbs in another pose, give the input in the pose of the rig's mesh; if they are right, "
-      "--weights transfer",
+      "%u of %u points are away from the mesh of %s, and each of their pieces moves rigidly with the bone "
+      "that it touches: if they are limbs in another pose, use an input in the pose of the rig's mesh; if "
+      "they are right, use --weights transfer",
       beside, count, r->rig.scene->file);
 }
 
@@ -445,8 +441,8 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
 /* --weights where there is nothing to choose from. */
 static sbf_status refuse_method(const sbfi_conversion *c) {
   return sbfi_diagnose(c->error, SBF_CODE_BAD_CALL,
-      c->rig ? "--weights %s is for a skeleton in another file: %s has one of its own"
-             : "--weights %s says which bones move the points, and there are no bones in %s: give --rig FILE",
+      c->rig ? "--weights %s is for a skeleton in another file, but %s has its own"
+             : "--weights %s needs bones, but %s has none: add --rig FILE",
       c->options->weights, c->scene->file);
 }
 
@@ -456,7 +452,7 @@ sbf_status sbfi_rig_input(sbfi_conversion *c) {
   if (mode != MODE_ANY && (!c->rig || (own_rig && mode < MODE_COMPUTE))) return refuse_method(c);
   if (c->options->shell_count && (!c->rig || own_rig))
     return sbfi_diagnose(c->error, SBF_CODE_BAD_CALL,
-        "'%s' cannot be given to a bone: that is for a skeleton in another file, --rig FILE",
+        "'%s' cannot be assigned to a bone: --shell needs a skeleton in another file, --rig FILE",
         c->options->shells[0].group);
   if (!c->rig || c->asset->bones.count == 0 || c->scene->mesh_count == 0) return SBF_OK;
   if (own_rig && mode == MODE_ANY) return SBF_OK;

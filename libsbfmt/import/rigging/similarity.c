@@ -171,11 +171,11 @@ static void describe_rotation(const sbfi_matrix *m, sbfi_similarity_text *text) 
   if (fabs(angle) < 0.01) return;
   for (int k = 0; k < 3; k++)
     if (fabs(q[k]) > 0.99999 * sine) {
-      snprintf(part, sizeof part, "turned by %.4g degrees about %c", q[k] < 0 ? -angle : angle, "xyz"[k]);
+      snprintf(part, sizeof part, "rotated by %.4g degrees about %c", q[k] < 0 ? -angle : angle, "xyz"[k]);
       add_text(text, part);
       return;
     }
-  snprintf(part, sizeof part, "turned by %.4g degrees about (%.3g, %.3g, %.3g)", angle, q[0] / sine,
+  snprintf(part, sizeof part, "rotated by %.4g degrees about (%.3g, %.3g, %.3g)", angle, q[0] / sine,
       q[1] / sine, q[2] / sine);
   add_text(text, part);
 }

@@ -81,9 +81,8 @@ static void report_separated(const sbfi_rigging *r, const sbfi_scene_surface *mo
     if (!count || is_beside_bones(bones, &object, margin)) continue;
     r->separated[m] = true;
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OBJECT_APART,
-        "no bone of %s lies in the object '%.60s' or beside it: if it is another character, convert it from "
-        "a "
-        "file of its own with its own rig; --shell gives it to a bone as a whole",
+        "no bone of %s is inside or near the object '%.60s': if it is another character, convert it "
+        "separately with its own rig; otherwise assign it to a bone with --shell",
         r->rig.scene->file, r->names[m]);
   }
 }
@@ -115,9 +114,9 @@ static sbf_status check_idle_bones(const sbfi_rigging *r, const sbfi_weights *co
   }
   if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
   return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
-      "only %.0f %% of the bones' length lies inside the mesh near some of its surface; %.0f %% lie deep "
-      "inside, where "
-      "other bones are nearer to all of it: %s; give this character's rig, or --unit, --up and --forward",
+      "only %.0f %% of the bones' length is inside the mesh near some of its surface; %.0f %% is deep "
+      "inside, where other bones are nearer to the surface: %s; use this character's rig, or state --unit, "
+      "--up and --forward",
       100 * fraction, 100 * idle, names);
 }
 
@@ -137,12 +136,9 @@ static sbf_status check_extent(const sbfi_rigging *r, const sbfi_weights *comput
   if (!(r->alignment.inside > 0) || r->c->options->weights || !is_of_another(f)) return SBF_OK;
   if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
   return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
-      "the bones of %s lie inside the mesh, but reach over %.0f %% of its length alone, and half of the "
-      "surface is "
-      "farther from them than %.1f times half its thickness: give this character's rig; --weights "
-      "compute "
-      "takes "
-      "these bones as they lie",
+      "the bones of %s are inside the mesh, but extend over only %.0f %% of its length, and half of the "
+      "surface is farther from them than %.1f times half its thickness: use this character's rig, or "
+      "--weights compute if it is right",
       r->rig.scene->file, 100 * f->bone_extent, f->median_distance);
 }
 
@@ -175,20 +171,18 @@ static sbf_status check_other_mesh(const sbfi_rigging *r) {
   if (is_scaled_by_unit(r)) {
     char lie[60] = ""; /* empty if the rig has no two joints to interpolate */
     if (r->alignment.inside > 0)
-      snprintf(lie, sizeof lie, ", of which %.0f %% lie inside the input,", 100 * r->alignment.inside);
+      snprintf(lie, sizeof lie, " (%.0f %% of them inside the input)", 100 * r->alignment.inside);
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
-        "the mesh of %s is not like the input: laid over each other, they are %.0f %% of the mesh's size "
-        "apart; its bones%s may be another character's; give the rig of this character, or --weights compute "
-        "if it is right",
+        "the mesh of %s is not like the input: after alignment, they are %.0f %% of the mesh's size apart; "
+        "its bones%s may belong to another character; use the rig of this character, or --weights compute if "
+        "it is right",
         r->rig.scene->file, 100 * r->unlike, lie);
     return SBF_OK;
   }
   if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
   return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
-      "the mesh of %s is not like the input: laid over each other, they are %.0f %% of the mesh's size "
-      "apart; and "
-      "its bones lie inside the input only if that is scaled by %.3g, which is no usual unit; give the rig "
-      "of "
+      "the mesh of %s is not like the input: after alignment, they are %.0f %% of the mesh's size apart; its "
+      "bones are inside the input only if that is scaled by %.3g, which is not a usual unit; use the rig of "
       "this character, or state --unit, or --weights compute to use these bones",
       r->rig.scene->file, 100 * r->unlike, sbfi_similarity_scale(&r->alignment.to_asset));
 }
@@ -218,9 +212,8 @@ sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved)
   }
   if (status == SBF_OK)
     sbfi_convert_warn(r->c, SBF_CODE_IMPORT_WEIGHTS_COMPUTED,
-        "weights were computed from %u bones: %u of %u shells move with one bone each, %u bones hold no "
-        "point; "
-        "--shell gives one to another",
+        "weights were computed from %u bones: %u of %u shells move with one bone each, %u bones move no "
+        "point; assign a shell to another bone with --shell",
         in.bone_count, computed.figures.rigid_shell_count, computed.figures.shell_count,
         computed.figures.unused_bone_count);
   if (status == SBF_OK) report_separated(r, moved);

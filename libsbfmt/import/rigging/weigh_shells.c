@@ -35,14 +35,14 @@ static sbf_status read_wish(const sbfi_rigging *r, const sbf_convert_pin *from, 
   }
   if (wish->mesh == SBF_NONE)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-        "no object of %s is called '%s' that could be given to a bone: name an object, or a shell of it as "
-        "OBJECT#NUMBER",
+        "no object of %s has the name '%s' of --shell: name an object, or a shell of it as OBJECT#NUMBER",
         r->input.scene->file, from->group);
   for (uint32_t b = 0; b < bones.count && wish->node == SBF_NONE; b++)
     if (from->bone && strcmp(bones.at[b].name, from->bone) == 0) wish->node = (int32_t)r->c->node_of_bone[b];
   if (wish->node == SBF_NONE)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-        "no bone of the rig is called '%s' that could move '%s'", from->bone ? from->bone : "", from->group);
+        "--shell: no bone of the rig has the name '%s', so it cannot move '%s'", from->bone ? from->bone : "",
+        from->group);
   return SBF_OK;
 }
 
@@ -59,7 +59,8 @@ static sbf_status apply_request(
   uint32_t from = r->input.mesh_starts[wish->mesh], to = r->input.mesh_starts[wish->mesh + 1], shells = 0;
   if (r->carriers[wish->mesh] != SBF_NONE && wish->number)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-        "'%s' is part of an object that a bone carries as a whole, by its name: rename it, or give it whole",
+        "'%s' is part of an object that moves rigidly with a bone of its name: rename it, or assign the "
+        "whole object",
         name);
   if (r->carriers[wish->mesh] != SBF_NONE) r->carriers[wish->mesh] = wish->node;
   uint32_t wanted = UINT32_MAX;
@@ -67,7 +68,7 @@ static sbf_status apply_request(
     if (sbfi_set_root(parents, i) == i && ++shells == wish->number) wanted = i;
   if (wish->number > shells)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-        "there is no shell '%s': the object consists of %u", name, shells);
+        "there is no shell '%s': the object has %u shells", name, shells);
   for (uint32_t i = from; i < to; i++)
     if (!wish->number || sbfi_set_root(parents, i) == wanted) assign_point(r, i, wish->node);
   return SBF_OK;

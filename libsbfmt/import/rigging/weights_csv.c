@@ -25,11 +25,11 @@ sbf_status sbfi_weights_rows_add(
   sbfi_weights_row row = {.line = line, .bone = bone};
   if (sbfi_parse_u32(vertex.at, vertex.length, &row.vertex) != SBFI_NUMBER_READ)
     return sbfi_weights_rows_fail(
-        to, line, "'%s' is no number of a vertex: they count from 0", sbfi_quote_of(vertex).text);
+        to, line, "'%s' is not a vertex number: vertices are counted from 0", sbfi_quote_of(vertex).text);
   if (sbfi_parse_f32(weight.at, weight.length, &row.weight) != SBFI_NUMBER_READ || row.weight < 0 ||
       row.weight > 1)
     return sbfi_weights_rows_fail(
-        to, line, "'%s' is no weight: give one from 0 to 1", sbfi_quote_of(weight).text);
+        to, line, "'%s' is not a weight: use a number from 0 to 1", sbfi_quote_of(weight).text);
   return sbfi_array_append(&to->rows, &row, 1) ? SBF_OK : no_memory(to);
 }
 
@@ -81,8 +81,8 @@ static sbf_status read_header(sbfi_weights_rows *to, sbfi_span line, int indices
       if (sbfi_span_is(field, COLUMN_NAMES[k])) indices[k] = at;
   for (int k = 0; k < COLUMNS; k++)
     if (indices[k] < 0)
-      return sbfi_weights_rows_fail(
-          to, 1, "no column is called '%s': the first line names vertex, bone and weight", COLUMN_NAMES[k]);
+      return sbfi_weights_rows_fail(to, 1,
+          "there is no column '%s': the first line must name vertex, bone and weight", COLUMN_NAMES[k]);
   return SBF_OK;
 }
 

@@ -30,7 +30,7 @@ static sbf_status unknown_bone(sbfi_rigging *r, sbfi_weights_rows *rows, const s
   sbfi_suggestion near = sbfi_suggestion_for(sbfi_span_of(row->bone));
   const sbf_bone_list *bones = &r->c->asset->bones;
   for (uint32_t b = 0; b < bones->count; b++) sbfi_suggestion_consider(&near, bones->at[b].name);
-  return sbfi_weights_rows_fail(rows, row->line, "no bone of %s is called '%s'%s", r->rig.scene->file,
+  return sbfi_weights_rows_fail(rows, row->line, "no bone of %s has the name '%s'%s", r->rig.scene->file,
       sbfi_quote_of(sbfi_span_of(row->bone)).text, sbfi_suggestion_text_of(&near).at);
 }
 
@@ -41,7 +41,7 @@ static sbf_status apply_row(sbfi_rigging *r, sbfi_weights_rows *rows, const sbfi
   while (bone < bones->count && strcmp(bones->at[bone].name, row->bone) != 0) bone++;
   if (bone == bones->count) return unknown_bone(r, rows, row);
   if (row->vertex >= vertex_count || !points[row->vertex])
-    return sbfi_weights_rows_fail(rows, row->line, "%s has no vertex %u that a polygon uses: the last is %u",
+    return sbfi_weights_rows_fail(rows, row->line, "%s has no vertex %u in a polygon: the last one is %u",
         r->input.scene->file, row->vertex, vertex_count - 1);
   uint32_t point = points[row->vertex] - 1;
   sbfi_influences_add(&r->weights[point], r->c->node_of_bone[bone], (double)row->weight);
@@ -65,12 +65,12 @@ static sbf_status apply_rows(sbfi_rigging *r, sbfi_weights_rows *rows) {
   }
   if (given && given < r->input.mesh.positions.count)
     sbfi_convert_warn(r->c, SBF_CODE_RIG_UNWEIGHTED_POINTS,
-        "the file of weights has %u of the %u points of %s: the other %u follow the root bone '%s', or the "
-        "nearest bone "
-        "as a whole where no point of their object has weights; add their rows, or leave out --weights",
+        "the weights file has %u of the %u points of %s: the other %u follow the root bone '%s', or the "
+        "nearest bone if no point of their object has weights; add their rows, or leave out --weights",
         given, r->input.mesh.positions.count, r->input.scene->file, r->input.mesh.positions.count - given,
         bones->at[0].name);
-  return given ? SBF_OK : sbfi_weights_rows_fail(rows, 0, "it gives no vertex a weight above 0");
+  return given ? SBF_OK
+               : sbfi_weights_rows_fail(rows, 0, "no vertex has a weight above 0: correct the weights");
 }
 
 sbf_status sbfi_weigh_by_file(sbfi_rigging *r, const char *path) {
@@ -80,7 +80,7 @@ sbf_status sbfi_weigh_by_file(sbfi_rigging *r, const char *path) {
   sbfi_weights_rows rows = {.arena = &r->c->scratch, .error = r->c->error};
   if (!is_json && !(dot && strcmp(dot, ".csv") == 0))
     return sbfi_diagnose(r->c->error, SBF_CODE_BAD_CALL,
-        "weights are named, match, transfer, compute, or a file that ends in .csv or .json, not '%s'",
+        "weights must be named, match, transfer, compute, or a file that ends in .csv or .json, not '%s'",
         sbfi_quote_of(sbfi_span_of(path)).text);
   sbf_status status = sbfi_file_read(path, 0, &r->c->scratch.allocator, &content, r->c->error);
   if (status != SBF_OK) return status;

@@ -25,7 +25,7 @@ static bool take(reader *r, char c) {
 
 static sbf_status fail(const reader *r, const char *wanted) {
   size_t length = (size_t)(r->end - r->at);
-  return sbfi_weights_rows_fail(r->to, r->line, "JSON: %s belongs where '%s' stands", wanted,
+  return sbfi_weights_rows_fail(r->to, r->line, "JSON: expected %s instead of '%s'", wanted,
       sbfi_quote_of((sbfi_span){r->at, length < 24 ? length : 24}).text);
 }
 
@@ -130,7 +130,7 @@ static sbf_status skip_value(reader *r) {
     } else if (!read_word(r).length) {
       return fail(r, "a value");
     }
-    if (depth < 0 || depth > DEEPEST) return fail(r, "a value of no such depth");
+    if (depth < 0 || depth > DEEPEST) return fail(r, "a value with less nesting");
   } while (depth);
   return SBF_OK;
 }
@@ -154,7 +154,7 @@ static sbf_status read_row(reader *r) {
     if (status == SBF_OK && !more && !take(r, '}')) status = fail(r, "',' or '}'");
   }
   if (status != SBF_OK) return status;
-  if (!bone) return sbfi_weights_rows_fail(r->to, line, "a row names no bone");
+  if (!bone) return sbfi_weights_rows_fail(r->to, line, "a row has no bone");
   return sbfi_weights_rows_add(r->to, line, vertex, bone, weight);
 }
 

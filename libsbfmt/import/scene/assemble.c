@@ -35,15 +35,14 @@ bool sbfi_assemble_frame(sbfi_assembly *a) {
   if (scene->unit_known)
     scene->unit_m = factor / 100;
   else if (!sbfi_scene_warn(scene, SBF_CODE_IMPORT_UNIT, 0,
-               "the file states a unit of %g cm, which is no length of use: metres are assumed", factor))
+               "the file states a unit of %g cm, which is not usable: metres are assumed", factor))
     return false;
   static const int32_t none[6];
   if (memcmp(a->raw->axes, none, sizeof none) == 0) return true;
   scene->axes_known = axes_of(a->raw->axes, &scene->axes);
   return scene->axes_known || sbfi_scene_warn(scene, SBF_CODE_IMPORT_AXES, 0,
-                                  "the file's axes (up %d, front %d, right %d, signs %d %d %d) make no "
-                                  "right-handed frame: +Y up and "
-                                  "+Z forward are assumed",
+                                  "the file's axes (up %d, front %d, right %d, signs %d %d %d) do not form a "
+                                  "right-handed frame: +Y up and +Z forward are assumed",
                                   (int)a->raw->axes[0], (int)a->raw->axes[2], (int)a->raw->axes[4],
                                   (int)a->raw->axes[1], (int)a->raw->axes[3], (int)a->raw->axes[5]);
 }
@@ -73,8 +72,8 @@ static bool name_objects(sbfi_assembly *a) {
 static bool report_lost_unit(sbfi_assembly *a) {
   bool lost = strcmp(a->scene->format, "3mf") == 0 || strcmp(a->scene->format, "amf") == 0;
   return !lost || sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_UNIT, 0,
-                      "a %s file states its unit, usually millimetres, and the importer does not hand it on: "
-                      "metres are assumed; say --unit 0.001 for millimetres",
+                      "a %s file states its unit, usually millimetres, but the importer does not pass it on: "
+                      "metres are assumed; use --unit 0.001 for millimetres",
                       a->scene->format);
 }
 
@@ -83,14 +82,15 @@ static bool check_worlds(sbfi_assembly *a) {
     for (int k = 0; k < 12; k++)
       if (!(fabs(a->nodes[i].world.at[k / 4][k % 4]) <= 1e30))
         return sbfi_assembly_refuse(a, SBF_CODE_IMPORT_NOT_FINITE,
-            "the transforms above node \"%s\" multiply beyond single precision", a->nodes[i].name);
+            "the product of the transforms above node \"%s\" exceeds single precision: export the file again",
+            a->nodes[i].name);
   return true;
 }
 
 static bool check_content(sbfi_assembly *a) {
   if (a->scene->mesh_count || sbfi_scene_bone_count(a->scene)) return true;
   return sbfi_assembly_refuse(
-      a, SBF_CODE_IMPORT_EMPTY, "the file holds neither a surface nor bones that can be read");
+      a, SBF_CODE_IMPORT_EMPTY, "the file has neither a surface nor bones that can be read");
 }
 
 sbf_status sbfi_assemble(
@@ -105,5 +105,5 @@ sbf_status sbfi_assemble(
   sbfi_arena_free(&a.scratch);
   if (good) return SBF_OK;
   if (a.status) return a.status;
-  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while the scene was put together");
+  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while assembling the scene");
 }

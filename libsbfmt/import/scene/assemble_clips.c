@@ -153,8 +153,7 @@ static bool make_channel(clipping *c, uint32_t node, sbfi_scene_channel *to) {
     for (uint32_t i = 0; i < t[k].count * (k == SBFI_RAW_ROTATION ? 4 : 3); i++)
       if (!isfinite(t[k].values[i]))
         return sbfi_assembly_refuse(a, SBF_CODE_IMPORT_NOT_FINITE,
-            "the keys of node \"%s\" are beyond single precision: export the file again",
-            a->nodes[node].name);
+            "the keys of node \"%s\" exceed single precision: export the file again", a->nodes[node].name);
   return true;
 }
 
@@ -221,7 +220,8 @@ static bool make_clip(clipping *c, uint32_t number, sbfi_scene_clip *to) {
       .channels = count ? channels : NULL};
   if (!to->name) return false;
   return !unknown || sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_KEYS, 0,
-                         "%u channels of clip \"%s\" are left out: no node has their name, or one has two",
+                         "%u channels of clip \"%s\" are left out, because no node has their name, or a node "
+                         "has two of them",
                          unknown, to->name);
 }
 
@@ -241,7 +241,7 @@ static bool make_clips(clipping *c) {
   a->scene->clip_count = count;
   return !c->dropped_keys ||
          sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_KEYS, 0,
-             "%llu keys are left out: their times do not ascend, or their rotation is none",
+             "%llu keys are left out, because their times do not increase, or their rotation is invalid",
              (unsigned long long)c->dropped_keys);
 }
 

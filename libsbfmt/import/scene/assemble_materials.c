@@ -42,7 +42,8 @@ static bool make_image(imaging *m, sbfi_span name, int32_t *number) {
     if (!raw->byte_count) {
       *number = SBF_NONE;
       return sbfi_scene_warn(scene, SBF_CODE_IMPORT_IMAGE, 0,
-          "embedded image %lld is no PNG or JPEG file but bare pixels: it is left out", (long long)embedded);
+          "embedded image %lld has raw pixels instead of a PNG or JPEG file and is left out",
+          (long long)embedded);
     }
     image.name = sbfi_scene_string(scene, raw->name);
     image.extension = sbfi_scene_string(scene, raw->extension);

@@ -47,7 +47,7 @@ static bool refuse_size(joining *j) {
 
 static bool refuse_number(joining *j, const char *what) {
   return sbfi_assembly_refuse(j->assembly, SBF_CODE_IMPORT_NOT_FINITE,
-      "the %s of mesh \"%s\" are beyond single precision: export the file again", what, j->to->name);
+      "the %s of mesh \"%s\" exceed single precision: export the file again", what, j->to->name);
 }
 
 /* Common prefix of the parts' names: several parts are named "-0", "-1", … after the mesh's name. */
@@ -134,9 +134,11 @@ static bool join_joints(joining *j, sbfi_array *joints, const sbfi_raw_mesh *par
     if (node == SBF_NONE) {
       j->nodeless_count++;
       const char *name = sbfi_scene_string(a->scene, part->bones[b].name);
-      good = name &&
-             sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_IGNORED, 0,
-                 "a skin refers to \"%s\", which is no node: its weights move nothing, but can pin", name);
+      good =
+          name &&
+          sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_IGNORED, 0,
+              "a skin refers to \"%s\", which is not a node: its weights move nothing, but pins can use them",
+              name);
       continue;
     }
     int64_t joint = add_joint(j, joints, node, &part->bones[b].bind);
@@ -508,7 +510,7 @@ bool sbfi_assemble_meshes(sbfi_assembly *a) {
   if (!a->raw->mesh_count) return true;
   if (sbfi_is_invented(a))
     return sbfi_scene_warn(scene, SBF_CODE_IMPORT_MESH_INVENTED, 0,
-        "the file has no mesh of its own: the one that the importer made up is left out");
+        "the file has no mesh: the one that the importer invented is left out");
   uint32_t count = 0;
   uint64_t left_out = 0;
   for (uint32_t i = 0; i < scene->node_count; i++) count += a->raw->nodes[a->old_from_new[i]].mesh_count > 0;
@@ -521,7 +523,7 @@ bool sbfi_assemble_meshes(sbfi_assembly *a) {
     scene->mesh_count += meshes[scene->mesh_count].polygon_count > 0;
   }
   scene->meshes = scene->mesh_count ? meshes : NULL;
-  return !left_out ||
-         sbfi_scene_warn(scene, SBF_CODE_IMPORT_IGNORED, 0,
-             "%llu points and lines, which make no polygon, are left out", (unsigned long long)left_out);
+  return !left_out || sbfi_scene_warn(scene, SBF_CODE_IMPORT_IGNORED, 0,
+                          "%llu points and lines are left out, because they are not polygons",
+                          (unsigned long long)left_out);
 }

@@ -36,7 +36,7 @@ static bool copy_limits(sbfi_assembly *a, sbfi_scene_node *node, const sbfi_scen
     if (!limits[i].stated || limits[i].min <= limits[i].max) continue;
     node->limits[i].stated = false;
     good = good && sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_IGNORED, 0,
-                       "node \"%s\" states a joint limit from %g to %g, which bounds nothing: it is left out",
+                       "node \"%s\" states a joint limit from %g to %g, which limits nothing and is left out",
                        node->name, (double)limits[i].min, (double)limits[i].max);
   }
   return good;
@@ -116,9 +116,8 @@ int32_t sbfi_assembly_find(sbfi_assembly *a, sbfi_span name, bool *good) {
   int32_t node = a->node_of_name[found];
   if (a->ties[found]) {
     if (!sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_NAME_AMBIGUOUS, 0,
-            "%u nodes are named \"%s\" and a skin or a clip refers to one: the first is taken; give each "
-            "node a "
-            "name of its own and export again",
+            "%u nodes have the name \"%s\", to which a skin or a clip refers: the first is used; give each "
+            "node its own name and export again",
             a->ties[found] + 1, a->nodes[node].name))
       *good = false;
     a->ties[found] = 0; /* one warning is enough */

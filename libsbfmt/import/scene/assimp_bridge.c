@@ -31,7 +31,7 @@ static bool find_from(const char *folder, char *to, size_t size) {
 
 static sbf_status helper_missing(sbf_diagnostic *error, const char *path, const char *from) {
   return sbfi_diagnose(error, SBF_CODE_IMPORT_HELPER_MISSING,
-      "%s, which %s names, is no program: this form is read by the program %s", path, from, helper_name);
+      "%s, set by %s, is not a program: reading this format needs the program %s", path, from, helper_name);
 }
 
 static sbf_status find_helper(const char *stated, char *to, size_t size, sbf_diagnostic *error) {
@@ -54,8 +54,8 @@ static sbf_status find_helper(const char *stated, char *to, size_t size, sbf_dia
   if (find_from(SBFMT_LIBEXEC_FOLDER, to, size)) return SBF_OK;
 #endif
   return sbfi_diagnose(error, SBF_CODE_IMPORT_HELPER_MISSING,
-      "the program %s, which reads this form, lies neither beside this program or library nor in the libexec "
-      "folder of their tree: install it, or name it in SBFMT_IMPORT_HELPER",
+      "the program %s, which reads this format, is neither beside this program or library nor in the libexec "
+      "folder of their installation: install it, or set SBFMT_IMPORT_HELPER to its path",
       helper_name);
 }
 
@@ -72,9 +72,8 @@ static void last_words(const char *text, char *to, size_t size) {
 
 static sbf_status limit_reached(sbf_diagnostic *error, const char *what) {
   return sbfi_diagnose(error, SBF_CODE_IMPORT_LIMIT,
-      "reading took more %s than a file of its size may: it is damaged, or to be exported smaller or in "
-      "another "
-      "form",
+      "reading took more %s than is allowed for a file of its size: it may be damaged; export it smaller or "
+      "in another format",
       what);
 }
 
@@ -95,7 +94,8 @@ static sbf_status check_exit(const sbfi_process_result *result, sbf_diagnostic *
   case SBFI_CHILD_REFUSED:
     if (strstr(words, "could not open referenced file"))
       return sbfi_diagnose(error, SBF_CODE_IMPORT_REFUSED,
-          "assimp refuses the file: %s; put that file where its name says, or export one file as .glb",
+          "assimp refuses the file: %s; put the referenced file at that path, or export everything as one "
+          ".glb",
           words);
     return sbfi_diagnose(error, SBF_CODE_IMPORT_REFUSED,
         "assimp refuses the file: %s; export it as a current FBX (2011 or later), glTF 2.0 or OBJ", words);
@@ -105,7 +105,7 @@ static sbf_status check_exit(const sbfi_process_result *result, sbf_diagnostic *
     return limit_reached(error, "memory");
   default:
     return sbfi_diagnose(error, SBF_CODE_IMPORT_CRASHED,
-        "the importer ended with status %d: \"%s\"; export the file again or in another form",
+        "the importer ended with status %d: \"%s\"; export the file again or in another format",
         result->exit_status, words);
   }
 }
@@ -125,8 +125,7 @@ static sbf_status check_end(const sbfi_process_result *result, sbf_diagnostic *e
   }
   sbfi_process_describe(result, how, sizeof how);
   return sbfi_diagnose(error, SBF_CODE_IMPORT_CRASHED,
-      "assimp broke down on the file (%s): it is damaged or unusual; export it again or in another form",
-      how);
+      "assimp crashed on the file (%s): it is damaged or unusual; export it again or in another format", how);
 }
 
 /* Checks the file first, to distinguish a missing file from a rejected one, and to skip one that is too

@@ -207,5 +207,5 @@ bool sbfi_scene_apply_bind_pose(sbfi_scene *scene) {
   scene->nodes = nodes;
   scene->saved_worlds = saved;
   return sbfi_scene_warn(scene, SBF_CODE_IMPORT_POSE, 0,
-      "the file was saved in the middle of a movement: bones and skin are taken as they were bound");
+      "the file was saved in mid-motion: the bind pose of bones and skin is used");
 }

@@ -20,7 +20,9 @@ static size_t left(const cursor *c) {
 static void fail(cursor *c, const char *what) {
   if (c->status) return;
   c->status = sbfi_diagnose(c->error, SBF_CODE_IMPORT_STREAM,
-      "what sbfmt-import sent breaks off or contradicts itself at %s: is it of this version of sbfmt?", what);
+      "the output of sbfmt-import is truncated or inconsistent at %s: check that it has the version of this "
+      "sbfmt",
+      what);
 }
 
 static void fail_not_finite(cursor *c, const char *what, sbfi_span name, size_t index) {

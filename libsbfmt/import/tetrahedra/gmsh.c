@@ -37,7 +37,7 @@ static bool position_of(gmsh *g, uint64_t number, uint32_t *slots) {
       g->numbers.count ? bsearch(&wanted, g->numbers.at, g->numbers.count, sizeof(numbered), compare_numbers)
                        : NULL;
   if (!found)
-    return sbfi_word_fail(g->r, SBF_CODE_IMPORT_INDEX, "an element names node %llu, which is not there",
+    return sbfi_word_fail(g->r, SBF_CODE_IMPORT_INDEX, "an element names node %llu, which does not exist",
         (unsigned long long)number);
   *slots = found->index;
   return true;
@@ -64,8 +64,8 @@ static bool read_tag(gmsh *g, const char *what) {
 
 static bool check_count(gmsh *g, uint64_t count, uint32_t min_bytes, const char *what) {
   if (count <= (size_t)(g->r->end - g->r->at) / min_bytes + 1) return true;
-  return sbfi_word_fail(g->r, SBF_CODE_IMPORT_SYNTAX, "%llu is more than the rest of the file can hold of %s",
-      (unsigned long long)count, what);
+  return sbfi_word_fail(g->r, SBF_CODE_IMPORT_SYNTAX,
+      "a count of %llu is more than the rest of the file can contain (%s)", (unsigned long long)count, what);
 }
 
 static bool read_position(gmsh *g, sbf_vec3 *point) {
@@ -119,7 +119,7 @@ static bool read_nodes_blocks(gmsh *g) {
       return false;
     if (parametric)
       return sbfi_word_fail(
-          g->r, SBF_CODE_IMPORT_REFUSED, "nodes with parameters are not read: save without them");
+          g->r, SBF_CODE_IMPORT_REFUSED, "nodes with parameters are not supported: save without them");
     for (uint64_t i = 0; i < count; i++)
       if (!read_wide(g, &number, "a node's number") || !add_number(g, number)) return false;
     for (uint64_t i = 0; i < count; i++) {
@@ -178,7 +178,8 @@ static bool read_elements_runs(gmsh *g, uint32_t count) {
       return false;
     if (nodes_of_type(type) == 0) return unknown_type(g, type);
     if (run == 0 || run > count - done)
-      return sbfi_word_fail(g->r, SBF_CODE_IMPORT_SYNTAX, "a run of %u elements does not fit the count", run);
+      return sbfi_word_fail(
+          g->r, SBF_CODE_IMPORT_SYNTAX, "a block of %u elements does not match the count", run);
     for (uint32_t i = 0; i < run; i++) {
       if (!read_u32(g, &number, "an element's number")) return false;
       for (uint32_t t = 0; t < tags; t++)
@@ -229,13 +230,13 @@ static bool read_format(gmsh *g) {
   g->version = version >= 4 ? 4 : 2;
   if (version != 2.2f && version != 2.1f && version != 2 && version != 4.1f)
     return sbfi_word_fail(g->r, SBF_CODE_IMPORT_REFUSED,
-        "version %.3g is not read: save the mesh as 2.2 or 4.1", (double)version);
+        "version %.3g is not supported: save the mesh as 2.2 or 4.1", (double)version);
   if (size != 8)
-    return sbfi_word_fail(g->r, SBF_CODE_IMPORT_REFUSED, "numbers of %u bytes are not read", size);
+    return sbfi_word_fail(g->r, SBF_CODE_IMPORT_REFUSED, "numbers of %u bytes are not supported", size);
   g->binary = binary == 1;
   if (!g->binary) return true;
   sbfi_word_line(g->r, &rest);
-  if (!sbfi_binary_u32(g->r, &one, "the mark of the byte order")) return false;
+  if (!sbfi_binary_u32(g->r, &one, "the byte order mark")) return false;
   g->r->swap_bytes = one != 1;
   return true;
 }
@@ -255,7 +256,8 @@ static bool skip_section(gmsh *g, sbfi_span name) {
     g->r->at = at + length;
     return true;
   }
-  return sbfi_word_fail(g->r, SBF_CODE_IMPORT_SYNTAX, "section %.*s has no end", (int)name.length, name.at);
+  return sbfi_word_fail(
+      g->r, SBF_CODE_IMPORT_SYNTAX, "section %.*s has no end line", (int)name.length, name.at);
 }
 
 static bool read_section(gmsh *g, sbfi_span name) {

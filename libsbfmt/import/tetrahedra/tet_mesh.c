@@ -92,7 +92,7 @@ static sbf_status repair(sbfi_tet_mesh *mesh, sbfi_key_set *known, const char *p
     for (int k = 0; k < 4; k++)
       if (p[k] >= mesh->points.count) {
         sbf_status status = sbfi_diagnose(error, SBF_CODE_IMPORT_INDEX,
-            "tetrahedron %zu names point %u and there are %zu", i, p[k], mesh->points.count);
+            "tetrahedron %zu names point %u, but there are %zu points", i, p[k], mesh->points.count);
         if (error) sbfi_copy_text(error->file, sizeof error->file, path);
         return status;
       }
@@ -117,7 +117,7 @@ static sbf_status repair(sbfi_tet_mesh *mesh, sbfi_key_set *known, const char *p
   }
   mesh->tetrahedra.count = kept;
   if (kept) return SBF_OK;
-  sbf_status status = sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the file holds no tetrahedra");
+  sbf_status status = sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the file has no tetrahedra");
   if (error) sbfi_copy_text(error->file, sizeof error->file, path);
   return status;
 }

@@ -7,7 +7,7 @@ static bool skip_words(sbfi_word_reader *r, uint32_t count) {
   sbfi_span word;
   for (uint32_t i = 0; i < count; i++)
     if (!sbfi_word_next(r, &word))
-      return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "the file ends among an item's attributes");
+      return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "the file ends within the attributes of an item");
   return true;
 }
 
@@ -26,7 +26,7 @@ bool sbfi_read_tetgen_nodes(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_t *
     if (i == 0) *first_number = number;
     if (number != *first_number + i)
       return sbfi_word_fail(
-          r, SBF_CODE_IMPORT_SYNTAX, "node %u stands where node %u should", number, *first_number + i);
+          r, SBF_CODE_IMPORT_SYNTAX, "found node %u instead of node %u", number, *first_number + i);
     if (!sbfi_word_f32(r, &points[i].x, "a node's place") ||
         !sbfi_word_f32(r, &points[i].y, "a node's place") ||
         !sbfi_word_f32(r, &points[i].z, "a node's place") || !skip_words(r, attributes + markers))
@@ -43,7 +43,7 @@ bool sbfi_read_tetgen_elements(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_
       !sbfi_word_u32(r, &attributes, "the number of attributes"))
     return false;
   if (nodes != 4 && nodes != 10)
-    return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "elements of %u nodes are no tetrahedra", nodes);
+    return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "elements of %u nodes are not tetrahedra", nodes);
   sbf_uint4 *tetrahedra = sbfi_word_push(r, &mesh->tetrahedra, count);
   for (uint32_t i = 0; tetrahedra && i < count; i++) {
     if (!sbfi_word_u32(r, &number, "a tetrahedron's number")) return false;

@@ -40,7 +40,7 @@ static bool read_points(vtk *v) {
   if (!sbfi_word_count(v->r, &count, 6, "the points") || !sbfi_word_next(v->r, &type)) return false;
   bool is_double = sbfi_span_is(type, "double");
   if (!is_double && !sbfi_span_is(type, "float"))
-    return sbfi_word_fail(v->r, SBF_CODE_IMPORT_SYNTAX, "points are read as float or double only");
+    return sbfi_word_fail(v->r, SBF_CODE_IMPORT_SYNTAX, "points must be float or double");
   end_line(v);
   sbf_vec3 *points = sbfi_word_push(v->r, &v->mesh->points, count);
   for (uint32_t i = 0; points && i < count; i++)
@@ -93,7 +93,7 @@ static bool read_sections(vtk *v) {
   while (sbfi_word_next(v->r, &word)) {
     if (sbfi_span_is(word, "DATASET")) {
       if (!sbfi_word_next(v->r, &word) || !sbfi_span_is(word, "UNSTRUCTURED_GRID"))
-        return sbfi_word_fail(v->r, SBF_CODE_IMPORT_REFUSED, "only an unstructured grid holds tetrahedra");
+        return sbfi_word_fail(v->r, SBF_CODE_IMPORT_REFUSED, "only an unstructured grid can have tetrahedra");
     } else if (sbfi_span_is(word, "POINTS")) {
       if (!read_points(v)) return false;
     } else if (sbfi_span_is(word, "CELLS")) {
@@ -116,7 +116,7 @@ bool sbfi_read_vtk(sbfi_word_reader *r, sbfi_tet_mesh *mesh) {
     return sbfi_word_fail(r, SBF_CODE_IMPORT_REFUSED, "the file does not begin as a legacy VTK file does");
   sbfi_word_line(r, &line); /* title */
   if (!sbfi_word_line(r, &line))
-    return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "the file ends in its head");
+    return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "the file ends within its header");
   v.binary = sbfi_span_is(line, "BINARY");
   r->swap_bytes = *(unsigned char *)&probe == 1; /* the file is big-endian */
   sbfi_array_init(&v.cells, &mesh->allocator, sizeof(uint32_t));

@@ -36,7 +36,7 @@ static sbfi_span attribute(const sbfi_xml_attribute *attributes, uint32_t count,
 static bool whole_number(vtu *v, sbfi_span text, uint32_t *value) {
   if (sbfi_parse_u32(text.at ? text.at : "", text.length, value) == SBFI_NUMBER_READ && *value <= INT32_MAX)
     return true;
-  return fail(v, SBF_CODE_IMPORT_SYNTAX, "an attribute that counts or places something is no number of use");
+  return fail(v, SBF_CODE_IMPORT_SYNTAX, "an attribute with a count or an offset is not a valid number");
 }
 
 /* --- One piece ---------------------------------------------------------------------------------------- */
@@ -47,7 +47,8 @@ static bool read_points(vtu *v) {
   bool good = sbfi_vtu_floats(v->r, &v->coding, &v->arrays[POINTS], &numbers);
   if (good && numbers.count != 3 * (size_t)v->point_count)
     good = sbfi_word_fail(v->r, SBF_CODE_IMPORT_SYNTAX,
-        "the piece states %u points and lists %zu numbers, not three each", v->point_count, numbers.count);
+        "the piece states %u points but lists %zu numbers instead of three each", v->point_count,
+        numbers.count);
   sbf_vec3 *points = good ? sbfi_word_push(v->r, &v->mesh->points, v->point_count) : NULL;
   if (points) memcpy(points, numbers.at, numbers.count * sizeof(float));
   sbfi_array_free(&numbers);
@@ -63,8 +64,7 @@ static bool read_cells(vtu *v, cell_lists *cells, uint32_t first_point) {
     if (!sbfi_vtu_indices(v->r, &v->coding, &v->arrays[i], &cells->lists[i])) return false;
     if (i != CONNECTIVITY && cells->lists[i].count != v->cell_count)
       return sbfi_word_fail(v->r, SBF_CODE_IMPORT_SYNTAX,
-          "the piece states %u cells, and %zu offsets or types are listed", v->cell_count,
-          cells->lists[i].count);
+          "the piece states %u cells but lists %zu offsets or types", v->cell_count, cells->lists[i].count);
   }
   const uint32_t *points = cells->lists[CONNECTIVITY].at, *ends = cells->lists[OFFSETS].at;
   const uint32_t *types = cells->lists[TYPES].at;
@@ -81,8 +81,8 @@ static bool read_cells(vtu *v, cell_lists *cells, uint32_t first_point) {
     for (int k = 0; k < 4; k++) {
       uint32_t point = points[begin + (uint32_t)k];
       if (point >= v->point_count)
-        return sbfi_word_fail(v->r, SBF_CODE_IMPORT_INDEX, "cell %u names point %u and the piece has %u", i,
-            point, v->point_count);
+        return sbfi_word_fail(v->r, SBF_CODE_IMPORT_INDEX,
+            "cell %u names point %u, but the piece has %u points", i, point, v->point_count);
       tetrahedron->at[k] = point + first_point;
     }
   }
@@ -121,11 +121,11 @@ static bool start_file(vtu *v, const char *name, const sbfi_xml_attribute *attri
   sbfi_span compressor = attribute(attributes, count, "compressor");
   if (strcmp(name, "VTKFile") != 0 || !sbfi_span_is(attribute(attributes, count, "type"), "UnstructuredGrid"))
     return fail(v, SBF_CODE_IMPORT_REFUSED,
-        "only a VTKFile of type UnstructuredGrid holds tetrahedra: save the grid itself, not what refers to "
-        "it");
+        "only a VTKFile of type UnstructuredGrid can have tetrahedra: save the grid itself, not a file that "
+        "refers to it");
   if (compressor.length && !sbfi_span_is(compressor, "vtkZLibDataCompressor"))
-    return fail(v, SBF_CODE_IMPORT_REFUSED,
-        "the file is compressed by other means than zlib: save it with that, or without");
+    return fail(
+        v, SBF_CODE_IMPORT_REFUSED, "the file is not compressed by zlib: save it with zlib, or uncompressed");
   bool big = sbfi_span_is(attribute(attributes, count, "byte_order"), "BigEndian");
   v->coding.swap_bytes = big == (*(unsigned char *)&probe == 1);
   v->coding.wide_header = sbfi_span_is(attribute(attributes, count, "header_type"), "UInt64");
@@ -153,8 +153,7 @@ static bool start_array(vtu *v, const sbfi_xml_attribute *attributes, uint32_t c
   sbfi_text_init(&a->text, &v->mesh->allocator);
   v->array_in = v->at;
   v->at = IN_ARRAY;
-  if (a->type == SBFI_VTU_TYPES)
-    return fail(v, SBF_CODE_IMPORT_SYNTAX, "an array is of no type that is known");
+  if (a->type == SBFI_VTU_TYPES) return fail(v, SBF_CODE_IMPORT_SYNTAX, "an array has an unknown type");
   uint32_t offset = 0;
   if (a->format != SBFI_VTU_APPENDED) return true;
   if (!whole_number(v, attribute(attributes, count, "offset"), &offset)) return false;
@@ -233,14 +232,14 @@ static bool cut_appended(vtu *v, sbfi_text *document) {
   sbfi_span attributes = {tag, (size_t)(end - tag)}, data = {end + 1, (size_t)(v->r->end - end - 1)};
   const char *underscore = memchr(data.at, '_', data.length);
   if (!underscore)
-    return fail(v, SBF_CODE_IMPORT_SYNTAX, "the appended data have no underscore to begin with");
+    return fail(v, SBF_CODE_IMPORT_SYNTAX, "the appended data do not begin with an underscore");
   v->coding.appended_text = find(attributes, "base64") != NULL;
   v->coding.appended = (sbfi_span){underscore + 1, (size_t)(v->r->end - underscore - 1)};
   if (v->coding.appended_text) {
     const char *stop = memchr(v->coding.appended.at, '<', v->coding.appended.length);
     if (stop) v->coding.appended.length = (size_t)(stop - v->coding.appended.at);
   } else if (!find(attributes, "raw")) {
-    return fail(v, SBF_CODE_IMPORT_REFUSED, "the appended data are encoded in no way that is known");
+    return fail(v, SBF_CODE_IMPORT_REFUSED, "the appended data have an unknown encoding");
   }
   return (sbfi_text_append(document, all.at, (size_t)(end + 1 - all.at)) &&
              sbfi_text_string(document, "</AppendedData></VTKFile>")) ||

@@ -40,7 +40,7 @@ static bool decode_some(byte_source *s, size_t length) {
   s->read += taken;
   if (taken == length) return true;
   if (!s->base64.ended)
-    return sbfi_word_fail(s->r, SBF_CODE_IMPORT_SYNTAX, "a character of an array is none of base64");
+    return sbfi_word_fail(s->r, SBF_CODE_IMPORT_SYNTAX, "an array has a character that is not base64");
   s->base64 = (sbfi_base64_reader){.bits = 0};
   return true;
 }
@@ -55,7 +55,8 @@ static const uint8_t *need(byte_source *s, uint64_t count) {
   }
   if (s->decoded.count >= count) return s->decoded.at;
 short_of_bytes:
-  sbfi_word_fail(s->r, SBF_CODE_IMPORT_SYNTAX, "an array's data break off: the file is cut or damaged");
+  sbfi_word_fail(
+      s->r, SBF_CODE_IMPORT_SYNTAX, "the data of an array end early: the file is truncated or damaged");
   return NULL;
 }
 
@@ -103,7 +104,8 @@ static uint64_t size_of_block(const blocks *b, uint64_t i) {
 static bool inflate_block(sbfi_word_reader *r, sbfi_vtu_coding *c, const uint8_t *stored,
     uint64_t stored_size, sbfi_array *to, uint64_t size) {
   if (size / MAX_INFLATION > stored_size)
-    return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "a compressed block claims more bytes than it can hold");
+    return sbfi_word_fail(
+        r, SBF_CODE_IMPORT_SYNTAX, "a compressed block states more bytes than it can contain");
   uint8_t *destination = sbfi_word_push(r, to, (size_t)size);
   if (!destination) return false;
   switch (sbfi_packed_inflate(
@@ -161,7 +163,7 @@ static bool read_bytes(sbfi_word_reader *r, sbfi_vtu_coding *c, const sbfi_vtu_a
   if (from->format == SBFI_VTU_APPENDED) {
     if (!c->appended.at || from->offset > c->appended.length)
       return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX,
-          "an array begins at byte %llu of the appended data, which have %llu",
+          "an array begins at byte %llu of the appended data, which have %llu bytes",
           (unsigned long long)from->offset, (unsigned long long)c->appended.length);
     s.from = (sbfi_span){c->appended.at + from->offset, c->appended.length - (size_t)from->offset};
     s.is_text = c->appended_text;
@@ -183,7 +185,7 @@ static bool one_float(sbfi_word_reader *r, sbfi_vtu_type type, uint64_t bits, fl
     memcpy(&wide, &bits, 8);
     *to = (float)wide;
   } else {
-    return sbfi_word_fail(r, SBF_CODE_IMPORT_REFUSED, "points are read as Float32 or Float64 only");
+    return sbfi_word_fail(r, SBF_CODE_IMPORT_REFUSED, "points must be Float32 or Float64");
   }
   return isfinite(*to) || sbfi_word_fail(r, SBF_CODE_IMPORT_NOT_FINITE, "a point is not finite");
 }
@@ -191,10 +193,10 @@ static bool one_float(sbfi_word_reader *r, sbfi_vtu_type type, uint64_t bits, fl
 static bool one_index(sbfi_word_reader *r, sbfi_vtu_type type, uint64_t bits, uint32_t *to) {
   bool is_signed = type == SBFI_VTU_INT8 || type == SBFI_VTU_INT16 || type == SBFI_VTU_INT32;
   if (type == SBFI_VTU_FLOAT32 || type == SBFI_VTU_FLOAT64)
-    return sbfi_word_fail(r, SBF_CODE_IMPORT_REFUSED, "cells are read as whole numbers only");
+    return sbfi_word_fail(r, SBF_CODE_IMPORT_REFUSED, "cells must be whole numbers");
   bool negative = is_signed && bits >> (8 * types[type].size - 1);
   if (negative || bits > INT32_MAX)
-    return sbfi_word_fail(r, SBF_CODE_IMPORT_INDEX, "a number of the cells is negative or beyond 2147483647");
+    return sbfi_word_fail(r, SBF_CODE_IMPORT_INDEX, "a number of the cells is negative or above 2147483647");
   *to = (uint32_t)bits;
   return true;
 }
@@ -227,7 +229,8 @@ static bool read_numbers(
   bool good = read_bytes(r, c, from, &bytes);
   uint32_t size = types[from->type].size;
   if (good && bytes.count % size)
-    good = sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "an array's bytes are no whole count of its numbers");
+    good = sbfi_word_fail(
+        r, SBF_CODE_IMPORT_SYNTAX, "the number of bytes of an array is not a multiple of its item size");
   size_t count = good ? bytes.count / size : 0;
   char *destination =
       count ? sbfi_word_push(r, to, count) : NULL; /* items of four bytes, float or uint32_t */

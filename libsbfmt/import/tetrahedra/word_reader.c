@@ -54,12 +54,13 @@ bool sbfi_word_line(sbfi_word_reader *r, sbfi_span *line) {
 
 static bool next_number(sbfi_word_reader *r, sbfi_span *word, const char *what) {
   if (sbfi_word_next(r, word)) return true;
-  return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "the file ends where %s should stand", what);
+  return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "the file ends where %s is expected", what);
 }
 
 static bool not_a_number(sbfi_word_reader *r, sbfi_span word, const char *what) {
   int length = word.length < 40 ? (int)word.length : 40;
-  return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "'%.*s' stands where %s should be", length, word.at, what);
+  return sbfi_word_fail(
+      r, SBF_CODE_IMPORT_SYNTAX, "found '%.*s' where %s is expected", length, word.at, what);
 }
 
 bool sbfi_word_f32(sbfi_word_reader *r, float *value, const char *what) {
@@ -83,8 +84,8 @@ bool sbfi_word_i32(sbfi_word_reader *r, int32_t *value, const char *what) {
 bool sbfi_word_count(sbfi_word_reader *r, uint32_t *value, uint32_t min_bytes, const char *what) {
   if (!sbfi_word_u32(r, value, what)) return false;
   if (*value <= (size_t)(r->end - r->at) / min_bytes + 1) return true;
-  return sbfi_word_fail(
-      r, SBF_CODE_IMPORT_SYNTAX, "%u is more than the rest of the file can hold of %s", *value, what);
+  return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX,
+      "a count of %u is more than the rest of the file can contain (%s)", *value, what);
 }
 
 static bool take(sbfi_word_reader *r, void *to, size_t size, const char *what) {

@@ -34,7 +34,7 @@ sbf_status sbfi_repair_derived(sbfi_repair *m, sbf_diagnostic *error) {
   }
   m->result->rebuilt = true;
   sbfi_count_repair(m, SBF_CODE_DERIVED_STALE, 1, "/sbf/derivations/derivation[1]", -1,
-      "derived parts made anew, with the settings %s", stale->settings);
+      "derived parts built again, with the settings %s", stale->settings);
   sbf_asset_free(m->asset);
   m->asset = built;
   return SBF_OK;

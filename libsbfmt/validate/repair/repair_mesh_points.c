@@ -121,7 +121,7 @@ void sbfi_repair_mesh_points(sbfi_repair *m) {
     renumber_mesh(&r);
     sbfi_path path = sbfi_path_of("/sbf/render_mesh[%u]/polygon_mesh/positions", i + 1);
     sbfi_count_repair(m, SBF_CODE_MESH_POINT_UNUSED, unused, path.text, first,
-        "%u point%s of '%s' in no polygon taken out", unused, sbfi_plural(unused),
+        "%u point%s of '%s' in no polygon removed", unused, sbfi_plural(unused),
         sbfi_label(mesh->name, mesh->id));
   }
 }

@@ -36,7 +36,7 @@ static void repair_set(
   }
   sbfi_path path = sbfi_path_of("%s/pins/pin_set[%u]/points", parent, number + 1);
   sbfi_count_repair(m, SBF_CODE_PIN_REPEATED, repeated, path.text, first,
-      "%u pin%s on points held already taken out", repeated, sbfi_plural(repeated));
+      "%u pin%s on points that were pinned already removed", repeated, sbfi_plural(repeated));
 }
 
 static void repair_sets(

@@ -109,7 +109,7 @@ void sbfi_repair_points(sbfi_repair *m) {
     renumber_body(&r);
     sbfi_path path = sbfi_path_of("/sbf/soft_body[%u]/polygon_mesh/positions", b + 1);
     sbfi_count_repair(m, SBF_CODE_POINT_UNUSED, unused, path.text, first,
-        "%u point%s of '%s' in no polygon taken out", unused, sbfi_plural(unused),
+        "%u point%s of '%s' in no polygon removed", unused, sbfi_plural(unused),
         sbfi_label(body->name, body->id));
   }
 }

@@ -60,11 +60,11 @@ static void evaluate_set(dropping *d, uint32_t number, uint32_t begin) {
   ((sbf_spring_set *)sbfi_writable(set))->inert_count += inert;
   sbfi_path path = sbfi_path_of("%s/spring_set[%u]/ends", d->path, number + 1);
   sbfi_count_repair(d->m, SBF_CODE_SPRING_SAME_POINT, same, path.text, firsts[0],
-      "%u spring%s from a point to itself taken out", same, sbfi_plural(same));
+      "%u spring%s from a point to itself removed", same, sbfi_plural(same));
   sbfi_count_repair(d->m, SBF_CODE_SPRING_INERT, inert, path.text, firsts[1],
-      "%u spring%s between held points taken out", inert, sbfi_plural(inert));
+      "%u spring%s between pinned points removed", inert, sbfi_plural(inert));
   sbfi_count_repair(d->m, SBF_CODE_SPRING_DUPLICATE, repeated, path.text, firsts[2],
-      "%u repeated spring%s taken out", repeated, sbfi_plural(repeated));
+      "%u repeated spring%s removed", repeated, sbfi_plural(repeated));
 }
 
 static void drop_values(sbf_f32_list *values, const uint8_t *dropped) {

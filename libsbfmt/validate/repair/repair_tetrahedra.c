@@ -77,11 +77,11 @@ static void repair_level(sbfi_repair *m, sbf_level *level, const char *path) {
     sbfi_list_drop(&mesh->tetrahedra, sizeof *mesh->tetrahedra.at, dropped);
   }
   sbfi_count_repair(m, SBF_CODE_TETRAHEDRON_INVERTED, c.inverted, path, c.first_inverted,
-      "inverted tetrahedra turned round: %u", c.inverted);
+      "inverted tetrahedra reordered: %u", c.inverted);
   sbfi_count_repair(m, SBF_CODE_TETRAHEDRON_INVERTED, c.flat, path, c.first_flat,
-      "tetrahedra without volume taken out: %u", c.flat);
+      "tetrahedra without volume removed: %u", c.flat);
   sbfi_count_repair(m, SBF_CODE_TETRAHEDRON_DUPLICATE, c.repeated, path, c.first_repeated,
-      "repeated tetrahedra taken out: %u", c.repeated);
+      "repeated tetrahedra removed: %u", c.repeated);
 }
 
 void sbfi_repair_tetrahedra(sbfi_repair *m) {

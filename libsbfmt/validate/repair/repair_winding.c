@@ -155,11 +155,11 @@ static void repair_surface(sbfi_repair *m, const sbf_soft_body *body, const char
       forget(&s, &all[i]);
   }
   uint32_t flipped = flip_marked(&s, &first);
-  sbfi_count_repair(m, SBF_CODE_SURFACE_WINDING, flipped, path, first, "%u polygon%s of '%s' turned round",
+  sbfi_count_repair(m, SBF_CODE_SURFACE_WINDING, flipped, path, first, "%u polygon%s of '%s' reversed",
       flipped, sbfi_plural(flipped), sbfi_label(body->name, body->id));
   uint32_t outwards = one_sided ? 0 : flip_outwards(body, &s, all_closed);
   sbfi_count_repair(m, SBF_CODE_SURFACE_INSIDE_OUT, outwards, path, -1,
-      "all polygons of '%s' turned outwards", sbfi_label(body->name, body->id));
+      "all polygons of '%s' reversed to face outwards", sbfi_label(body->name, body->id));
 }
 
 void sbfi_repair_winding(sbfi_repair *m) {

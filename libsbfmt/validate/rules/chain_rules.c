@@ -22,7 +22,7 @@ static void check_order(sbfi_validation *v, const bone_list *l) {
     int32_t above = (int32_t)l->bones.at[i - 1], below = (int32_t)l->bones.at[i];
     if (above != below && !sbfi_bone_hangs_on(v->asset, below, above))
       sbfi_found(v, SBF_CODE_CHAIN_BROKEN, sbfi_path_of("%s/bones", l->path).text, i,
-          "'%s' follows '%s' in %s '%s' and does not hang on it", sbfi_bone_label(v->asset, l->bones.at[i]),
+          "'%s' follows '%s' in %s '%s' but is not its child", sbfi_bone_label(v->asset, l->bones.at[i]),
           sbfi_bone_label(v->asset, l->bones.at[i - 1]), l->what, l->name);
   }
 }
@@ -66,7 +66,8 @@ static void check_oscillator(
   double tick = (double)v->asset->environment.control_tick;
   if (2 * frequency * tick > 1)
     sbfi_found(v, SBF_CODE_FOLLOWER_TOO_FAST, path, -1,
-        "%s swings with %.4g Hz and the control ticks show %.4g Hz", what, frequency, 0.5 / tick);
+        "%s has a frequency of %.4g Hz, but the control ticks can resolve only %.4g Hz", what, frequency,
+        0.5 / tick);
   if (damping_ratio == 0)
     sbfi_found(v, SBF_CODE_FOLLOWER_UNDAMPED, path, -1, "%s has the damping ratio 0", what);
 }

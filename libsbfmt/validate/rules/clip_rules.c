@@ -20,13 +20,13 @@ static void check_times(const played *p, const sbf_track *track, const char *pat
     float time = track->times.at[i];
     if (i == 0 ? time < 0 : time <= track->times.at[i - 1])
       sbfi_found(p->v, SBF_CODE_CLIP_TIMES, times.text, i,
-          "key %u of clip '%s' is at %.6g s, behind one at %.6g s", i, p->name, (double)time,
+          "key %u of clip '%s' is at %.6g s, after one at %.6g s", i, p->name, (double)time,
           i ? (double)track->times.at[i - 1] : 0.0);
     if ((double)time > end && beyond++ == 0) first = i;
   }
   if (beyond)
     sbfi_found(p->v, SBF_CODE_CLIP_PAST_END, times.text, first,
-        "%u key%s of clip '%s' lie%s behind its end at %.6g s", beyond, sbfi_plural(beyond), p->name,
+        "%u key%s of clip '%s' lie%s after its end at %.6g s", beyond, sbfi_plural(beyond), p->name,
         beyond == 1 ? "s" : "", (double)p->clip->duration);
 }
 
@@ -38,7 +38,7 @@ static void check_scales(const played *p, const sbf_track *track, const char *pa
     const float *at = track->values.at + i * stride + first;
     if (!(at[0] > 0 && at[1] > 0 && at[2] > 0))
       sbfi_found(p->v, SBF_CODE_CLIP_SCALE, sbfi_path_of("%s/values", path).text, i * stride + first,
-          "key %u of clip '%s' scales by %.4g, %.4g and %.4g", i, p->name, (double)at[0], (double)at[1],
+          "key %u of clip '%s' has the scale %.4g, %.4g, %.4g", i, p->name, (double)at[0], (double)at[1],
           (double)at[2]);
   }
 }
@@ -49,7 +49,7 @@ static void check_track(const played *p, const sbf_track *track, const char *pat
     sbfi_found(p->v, SBF_CODE_CLIP_EMPTY, path, -1, "a track of clip '%s' has no keys", p->name);
   if (track->values.count != wanted)
     sbfi_found(p->v, SBF_CODE_CLIP_VALUES, path, -1,
-        "a track of clip '%s' has %u keys of %s and %u values, not %llu", p->name, track->times.count,
+        "a track of clip '%s' with %u keys of %s has %u values instead of %llu", p->name, track->times.count,
         sbf_track_property_name(track->property), track->values.count, (unsigned long long)wanted);
   check_times(p, track, path);
   check_scales(p, track, path);
@@ -90,12 +90,13 @@ static void check_poses(sbfi_validation *v) {
     if (pose->keys.count == 0)
       sbfi_found(v, SBF_CODE_POSE_EMPTY, path.text, -1, "pose '%s' sets no bone", name);
     if (pose->distance < 0)
-      sbfi_found(v, SBF_CODE_POSE_DISTANCE, path.text, -1, "pose '%s' stands at %.4g m", name,
+      sbfi_found(v, SBF_CODE_POSE_DISTANCE, path.text, -1, "pose '%s' has the distance %.4g m", name,
           (double)pose->distance);
     for (uint32_t k = 0; k < i && pose->distance > 0; k++)
       if (poses.at[k].distance == pose->distance && poses.at[k].speed == pose->speed)
-        sbfi_found(v, SBF_CODE_POSE_DISTANCE, path.text, -1, "poses '%s' and '%s' both stand at %.4g m",
-            sbfi_label(poses.at[k].name, poses.at[k].id), name, (double)pose->distance);
+        sbfi_found(v, SBF_CODE_POSE_DISTANCE, path.text, -1,
+            "poses '%s' and '%s' both have the distance %.4g m", sbfi_label(poses.at[k].name, poses.at[k].id),
+            name, (double)pose->distance);
     for (uint32_t k = 0; k < pose->keys.count; k++) {
       if (set[pose->keys.at[k].bone] == i + 1)
         sbfi_found(v, SBF_CODE_POSE_REPEATED, sbfi_path_of("%s/pose_key[%u]", path.text, k + 1).text, -1,

@@ -24,8 +24,7 @@ static void check_pairs(sbfi_validation *v, const kind *kinds, uint32_t count) {
       if (a_to_b == b_to_a) continue;
       const kind *collides = a_to_b ? &kinds[i] : &kinds[k], *other = a_to_b ? &kinds[k] : &kinds[i];
       sbfi_found(v, SBF_CODE_COLLISION_ONE_SIDED, collides->path.text, -1,
-          "the mask of '%s' has the layer of '%s', whose mask has not the layer of the former",
-          collides->name, other->name);
+          "the mask of '%s' has the layer of '%s', but not the other way round", collides->name, other->name);
     }
 }
 
@@ -33,12 +32,12 @@ static void check_body(sbfi_validation *v, const sbf_soft_body *body, const char
   const sbf_collision *is = &body->collision;
   double size = sbfi_extent(body->surface.positions);
   if (is->self && !(is->layer & is->mask))
-    sbfi_found(v, SBF_CODE_COLLISION_SELF_MASKED, path, -1, "'%s' is of layer %u and its mask is %u",
+    sbfi_found(v, SBF_CODE_COLLISION_SELF_MASKED, path, -1, "'%s' has the layer %u and the mask %u",
         sbfi_label(body->name, body->id), is->layer, is->mask);
   if (size > 0 && (double)is->particle_radius > size)
     sbfi_found(v, SBF_CODE_PARTICLE_TOO_LARGE, path, -1,
-        "the particle radius of '%s' is %.3g m and the body %.3g m", sbfi_label(body->name, body->id),
-        (double)is->particle_radius, size);
+        "the particle radius of '%s' is %.3g m, but the body measures %.3g m",
+        sbfi_label(body->name, body->id), (double)is->particle_radius, size);
 }
 
 void sbfi_check_collisions(sbfi_validation *v) {

@@ -15,8 +15,8 @@ static void check(
   for (uint32_t i = 0; i < c->counts.count; i++) sum += c->counts.at[i];
   if (c->counts.count == 0) return;
   if (sum != c->count) {
-    sbfi_found(v, SBF_CODE_COLORS_COUNT, counts.text, -1, "%llu elements have a colour and there are %u",
-        (unsigned long long)sum, c->count);
+    sbfi_found(v, SBF_CODE_COLORS_COUNT, counts.text, -1,
+        "%llu elements have a colour, but there are %u elements", (unsigned long long)sum, c->count);
     return;
   }
   /* number from 1 of the last element with the point */

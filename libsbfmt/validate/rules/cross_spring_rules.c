@@ -14,7 +14,7 @@ static side side_of(sbfi_validation *v, int32_t body, uint32_t level, const char
   const sbf_soft_body *at = &v->asset->soft_bodies.at[body];
   side s = {NULL, NULL};
   if (level >= at->levels.count) {
-    sbfi_found(v, SBF_CODE_CROSS_SPRING_LEVEL, path, -1, "level_%c is %u and '%s' has %u level%s", letter,
+    sbfi_found(v, SBF_CODE_CROSS_SPRING_LEVEL, path, -1, "level_%c is %u, but '%s' has %u level%s", letter,
         level, sbfi_label(at->name, at->id), at->levels.count, sbfi_plural(at->levels.count));
     return s;
   }
@@ -27,7 +27,7 @@ static side side_of(sbfi_validation *v, int32_t body, uint32_t level, const char
 static bool is_there(sbfi_validation *v, const side *s, uint32_t point, uint32_t spring, const char *path) {
   if (point < s->level->positions.count) return true;
   sbfi_found(v, SBF_CODE_CROSS_SPRING_POINT, path, spring,
-      "spring %u names point %u and the level has %u points", spring, point, s->level->positions.count);
+      "spring %u names point %u, but the level has %u points", spring, point, s->level->positions.count);
   return false;
 }
 
@@ -42,7 +42,7 @@ static void check_spring(sbfi_validation *v, const sbf_cross_springs *set, const
     sbfi_found(v, SBF_CODE_SPRING_NO_LENGTH, path, i, "spring %u between two bodies has no rest length", i);
   if (a->pin_states[p[0]] == SBFI_PINNED && b->pin_states[p[1]] == SBFI_PINNED)
     sbfi_found(
-        v, SBF_CODE_SPRING_INERT, path, i, "spring %u joins two held points, %u and %u", i, p[0], p[1]);
+        v, SBF_CODE_SPRING_INERT, path, i, "spring %u joins two pinned points, %u and %u", i, p[0], p[1]);
 }
 
 static void find_duplicates(sbfi_validation *v, const sbf_cross_springs *set, const char *path) {
@@ -57,7 +57,7 @@ static void find_duplicates(sbfi_validation *v, const sbf_cross_springs *set, co
     if (*first == UINT32_MAX)
       *first = i;
     else
-      sbfi_found(v, SBF_CODE_SPRING_DUPLICATE, path, i, "points %u and %u are joined already by spring %u",
+      sbfi_found(v, SBF_CODE_SPRING_DUPLICATE, path, i, "points %u and %u are already joined by spring %u",
           p[0], p[1], *first);
   }
 }
@@ -69,7 +69,7 @@ void sbfi_check_cross_springs(sbfi_validation *v) {
     side a = side_of(v, set->body_a, set->level_a, path.text, 'a');
     side b = side_of(v, set->body_b, set->level_b, path.text, 'b');
     if (set->body_a == set->body_b && set->level_a == set->level_b)
-      sbfi_found(v, SBF_CODE_CROSS_SPRING_ONE_BODY, path.text, -1, "both ends are of '%s'",
+      sbfi_found(v, SBF_CODE_CROSS_SPRING_ONE_BODY, path.text, -1, "both ends are points of '%s'",
           sbfi_label(v->asset->soft_bodies.at[set->body_a].name, v->asset->soft_bodies.at[set->body_a].id));
     for (uint32_t i = 0; a.pin_states && b.pin_states && i < set->ends.count; i++)
       check_spring(v, set, &a, &b, i, ends.text);

@@ -17,6 +17,6 @@ void sbfi_check_derived(sbfi_validation *v) {
     hashed = true;
     if (strcmp(hash, derivation->source_hash) != 0)
       sbfi_found(v, SBF_CODE_DERIVED_STALE, sbfi_path_of("/sbf/derivations/derivation[%u]", i + 1).text, -1,
-          "the source of the parts made by '%s' has changed since", derivation->id);
+          "the source has changed since '%s' built the derived parts", derivation->id);
   }
 }

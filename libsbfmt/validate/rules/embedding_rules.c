@@ -65,7 +65,7 @@ static bool check_weights(const embedded_mesh *c, const sbf_embedding *e, uint32
   float low = fminf(fminf(w.x, w.y), fminf(w.z, w.w)), high = fmaxf(fmaxf(w.x, w.y), fmaxf(w.z, w.w));
   if (low < MIN_WEIGHT - WEIGHT_TOLERANCE || high > MAX_WEIGHT + WEIGHT_TOLERANCE)
     sbfi_found(c->v, SBF_CODE_EMBEDDING_OUTSIDE, path, i,
-        "item %u lies far outside its element, by weight %.3g", i,
+        "item %u is far outside its element: it has a weight of %.3g", i,
         (double)(low < MIN_WEIGHT - WEIGHT_TOLERANCE ? low : high));
   return true;
 }
@@ -77,7 +77,7 @@ static void check_embedding(
   double max = 0;
   c->stamp++;
   if (e->vertices.count && e->vertices.count != e->points.count) {
-    sbfi_found(c->v, SBF_CODE_EMBEDDING_LENGTH, path, -1, "%u vertices are named and %u embedded",
+    sbfi_found(c->v, SBF_CODE_EMBEDDING_LENGTH, path, -1, "%u vertices are listed, but %u are embedded",
         e->vertices.count, e->points.count);
     c->broken = true;
     return;
@@ -92,7 +92,7 @@ static void check_embedding(
       continue;
     }
     if (c->stamps[vertex] == c->stamp)
-      sbfi_found(c->v, SBF_CODE_EMBEDDING_REPEATED, vertices.text, i, "vertex %u of '%s' is carried twice",
+      sbfi_found(c->v, SBF_CODE_EMBEDDING_REPEATED, vertices.text, i, "vertex %u of '%s' is embedded twice",
           vertex, c->name);
     c->stamps[vertex] = c->stamp;
     c->fractions[vertex] += e->blends.count ? e->blends.at[i] : 1;
@@ -103,8 +103,9 @@ static void check_embedding(
   }
   if (off)
     sbfi_found(c->v, SBF_CODE_EMBEDDING_OFF, sbfi_path_of("%s/points", path).text, first,
-        "%u %s of '%s' %s carried off %s place%s, by up to %.3g m", off, off == 1 ? "vertex" : "vertices",
-        c->name, off == 1 ? "is" : "are", off == 1 ? "its" : "their", sbfi_plural(off), max);
+        "%u %s of '%s' %s embedded away from %s rest position%s, by up to %.3g m", off,
+        off == 1 ? "vertex" : "vertices", c->name, off == 1 ? "is" : "are", off == 1 ? "its" : "their",
+        sbfi_plural(off), max);
 }
 
 /* Sums the blend weights of one mesh's vertices over all bodies, at each body's level `l` or its coarsest. */
@@ -137,7 +138,7 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
     sbfi_found(v, SBF_CODE_EMBEDDING_BLEND, path.text, -1, "the blends of %u %s of '%s' do not sum to 1",
         partly, partly == 1 ? "vertex" : "vertices", sbfi_label(at->name, at->id));
   if (none && !at->skin && !c.broken)
-    sbfi_found(v, SBF_CODE_EMBEDDING_MISSING, path.text, -1, "%u %s of '%s' %s carried by no body", none,
+    sbfi_found(v, SBF_CODE_EMBEDDING_MISSING, path.text, -1, "%u %s of '%s' %s embedded in no body", none,
         none == 1 ? "vertex" : "vertices", sbfi_label(at->name, at->id), none == 1 ? "is" : "are");
 }
 

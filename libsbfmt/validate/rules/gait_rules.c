@@ -16,7 +16,7 @@ static const char *bone_name(const walker *w, int32_t bone) {
 
 static void check_bone(const walker *w, int32_t bone, const char *what, const char *path) {
   if (bone >= 0 && !sbfi_bone_hangs_on(w->v->asset, bone, w->gait->body))
-    sbfi_found(w->v, SBF_CODE_GAIT_BONE_OUTSIDE, path, -1, "%s '%s' of gait '%s' does not hang on '%s'", what,
+    sbfi_found(w->v, SBF_CODE_GAIT_BONE_OUTSIDE, path, -1, "%s '%s' of gait '%s' is not below '%s'", what,
         bone_name(w, bone), w->name, bone_name(w, w->gait->body));
 }
 
@@ -28,7 +28,7 @@ static void check_leg(walker *w, uint32_t number) {
   for (uint32_t k = 0; k < number; k++)
     if (w->gait->legs.at[k].ik == leg->ik) {
       sbfi_found(w->v, SBF_CODE_LEG_REPEATED, path.text, -1,
-          "legs %u and %u of gait '%s' move the chain '%s'", k + 1, number + 1, w->name,
+          "legs %u and %u of gait '%s' both move the chain '%s'", k + 1, number + 1, w->name,
           sbfi_label(chain->name, chain->id));
       break;
     }
@@ -41,11 +41,11 @@ static void check_leg(walker *w, uint32_t number) {
          capacity = run.reach * run.reach - displacement.y * displacement.y;
   if (distance > 1.001 * run.reach)
     sbfi_found(w->v, SBF_CODE_LEG_HOME_BEYOND_REACH, path.text, -1,
-        "the home of leg '%s' is %.3g m from '%s' and the leg %.3g m long", leg->name, distance,
+        "the home of leg '%s' is %.3g m from '%s', but the leg is %.3g m long", leg->name, distance,
         bone_name(w, chain->root), run.reach);
   else if ((double)w->gait->step_trigger > fmax(sqrt(fmax(capacity, 0)), run.reach / 2))
     sbfi_found(w->v, SBF_CODE_LEG_TRIGGER_BEYOND_REACH, path.text, -1,
-        "leg '%s' is to step %.3g m from its home and is %.3g m long", leg->name,
+        "leg '%s' should step at %.3g m from its home, but it is %.3g m long", leg->name,
         (double)w->gait->step_trigger, run.reach);
 }
 
@@ -63,22 +63,22 @@ static void check_legs(walker *w) {
   if (legs.count == 0 && w->gait->kind == SBF_GAIT_KIND_WALK)
     sbfi_found(w->v, SBF_CODE_GAIT_NO_LEGS, w->path, -1, "gait '%s' has no legs", w->name);
   if (legs.count > 1 && groups == 1)
-    sbfi_found(w->v, SBF_CODE_GAIT_ONE_GROUP, w->path, -1, "all %u legs of gait '%s' are of group %u",
+    sbfi_found(w->v, SBF_CODE_GAIT_ONE_GROUP, w->path, -1, "all %u legs of gait '%s' are in group %u",
         legs.count, w->name, legs.at[0].group);
   if (w->shortest > 0 && high - low > 0.1 * w->shortest)
     sbfi_found(w->v, SBF_CODE_LEG_UNEVEN, w->path, -1,
-        "the soles of gait '%s' stand from %.3g m to %.3g m high", w->name, low, high);
+        "the soles of gait '%s' have heights from %.3g m to %.3g m", w->name, low, high);
 }
 
 static void check_steps(const walker *w) {
   double tick = (double)w->v->asset->environment.control_tick;
   if ((double)w->gait->step_duration < 1.999 * tick)
     sbfi_found(w->v, SBF_CODE_GAIT_STEP_TOO_SHORT, w->path, -1,
-        "a step of gait '%s' lasts %.3g s and a control tick %.3g s", w->name, (double)w->gait->step_duration,
+        "a step of gait '%s' takes %.3g s, a control tick %.3g s", w->name, (double)w->gait->step_duration,
         tick);
   if (w->shortest > 0 && (double)w->gait->step_height > w->shortest)
     sbfi_found(w->v, SBF_CODE_GAIT_STEP_TOO_HIGH, w->path, -1,
-        "a step of gait '%s' is %.3g m high and a leg %.3g m long", w->name, (double)w->gait->step_height,
+        "a step of gait '%s' is %.3g m high, but a leg is %.3g m long", w->name, (double)w->gait->step_height,
         w->shortest);
 }
 
@@ -90,7 +90,7 @@ static void check_tails(const walker *w) {
     for (uint32_t k = 0; k < t; k++)
       if (w->gait->tails.at[k].chain == w->gait->tails.at[t].chain)
         sbfi_found(w->v, SBF_CODE_FOLLOWER_REPEATED, path.text, -1,
-            "tails %u and %u of gait '%s' move one chain", k + 1, t + 1, w->name);
+            "tails %u and %u of gait '%s' move the same chain", k + 1, t + 1, w->name);
   }
 }
 
@@ -133,8 +133,8 @@ static void check_parts(const walker *w) {
               : gait->kind == SBF_GAIT_KIND_ROLL    ? !gait->wheels.count && !gait->treads.count
                                                     : false;
   if (idle && gait->move_clip == SBF_NONE)
-    sbfi_found(w->v, SBF_CODE_GAIT_NOTHING_MOVES, w->path, -1, "gait '%s' is to %s, and no bone moves for it",
-        w->name, sbf_gait_kind_name(gait->kind));
+    sbfi_found(w->v, SBF_CODE_GAIT_NOTHING_MOVES, w->path, -1,
+        "gait '%s' should %s, but no bone moves for it", w->name, sbf_gait_kind_name(gait->kind));
   if (gait->rest_pose != SBF_NONE && asset->poses.at[gait->rest_pose].distance != 0)
     sbfi_found(w->v, SBF_CODE_GAIT_POSE_WALKS, w->path, -1,
         "the rest pose of gait '%s' is at %.3g m of a walk", w->name,

@@ -21,17 +21,17 @@ static void check_chain(sbfi_validation *v, const sbf_ik_chain *chain, const cha
   const char *end = sbfi_bone_label(v->asset, (uint32_t)chain->end);
   sbfi_bone_run run = sbfi_bone_run_of(v->asset, chain->root, chain->end);
   if (!run.whole) {
-    sbfi_found(v, SBF_CODE_IK_CHAIN_BROKEN, path, -1,
-        "the end '%s' of chain '%s' does not hang below its root '%s'", end, name, root);
+    sbfi_found(v, SBF_CODE_IK_CHAIN_BROKEN, path, -1, "the end '%s' of chain '%s' is not below its root '%s'",
+        end, name, root);
     return;
   }
   bool two_bone = chain->solver == SBF_IK_SOLVER_TWO_BONE;
   if (two_bone && run.count != 3)
-    sbfi_found(v, SBF_CODE_IK_BONE_COUNT, path, -1, "chain '%s' runs over %u bone%s from '%s' to '%s', not 3",
+    sbfi_found(v, SBF_CODE_IK_BONE_COUNT, path, -1, "chain '%s' has %u bone%s from '%s' to '%s' instead of 3",
         name, run.count, sbfi_plural(run.count), root, end);
   if (run.reach == 0)
     sbfi_found(
-        v, SBF_CODE_IK_NO_REACH, path, -1, "the bones of chain '%s' have their heads in one place", name);
+        v, SBF_CODE_IK_NO_REACH, path, -1, "the bones of chain '%s' have their heads at one position", name);
   else if (two_bone && run.count == 3)
     check_bend(v, chain, &run, path);
   for (uint32_t c = 0; c < chain->comforts.count; c++) {

@@ -27,7 +27,7 @@ static void check_rest(const jointed *j) {
            tolerance = is_angle(axis) ? REST_RAD : REST_M + REST_FRACTION * j->rest.arm;
     if (sbfi_joint_is_free(j->joint->kind, axis) || value <= tolerance) continue;
     sbfi_found(j->v, SBF_CODE_JOINT_NOT_AT_REST, j->path, -1,
-        "joint '%s' holds %s at 0 and it is %.3g %s at rest", j->name, sbf_joint_axis_name(axis),
+        "joint '%s' locks %s at 0, but it is %.3g %s at rest", j->name, sbf_joint_axis_name(axis),
         j->rest.at[axis], is_angle(axis) ? "rad" : "m");
     return;
   }
@@ -54,15 +54,14 @@ static void check_limit(const jointed *j, uint32_t number, const char *path) {
         "the %s limit of joint '%s' has the minimum %.4g and the maximum %.4g", axis, j->name,
         (double)limit->min, (double)limit->max);
   else if (is_beyond(limit))
-    sbfi_found(j->v, SBF_CODE_LIMIT_BEYOND_RANGE, path, -1,
-        "the %s limit of joint '%s' runs from %.4g to %.4g", axis, j->name, (double)limit->min,
-        (double)limit->max);
+    sbfi_found(j->v, SBF_CODE_LIMIT_BEYOND_RANGE, path, -1, "the %s limit of joint '%s' is from %.4g to %.4g",
+        axis, j->name, (double)limit->min, (double)limit->max);
   else if (!sbfi_joint_is_free(j->joint->kind, limit->target))
     sbfi_found(j->v, SBF_CODE_LIMIT_IDLE, path, -1, "joint '%s' is %s and has no %s to limit", j->name,
         sbf_joint_kind_name(j->joint->kind), axis);
   else if (at_rest < (double)limit->min - SLACK || at_rest > (double)limit->max + SLACK)
     sbfi_found(j->v, SBF_CODE_LIMIT_EXCLUDES_REST, path, -1,
-        "%s of joint '%s' is %.4g at rest and limited to %.4g … %.4g", axis, j->name, at_rest,
+        "%s of joint '%s' is %.4g at rest, but limited to %.4g … %.4g", axis, j->name, at_rest,
         (double)limit->min, (double)limit->max);
 }
 

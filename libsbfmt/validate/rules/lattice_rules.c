@@ -61,7 +61,7 @@ static void use_face(sbfi_validation *v, const sbf_uint4_list *tetrahedra, uint3
   face_use *use = &uses[*slots];
   if (use->full)
     sbfi_found(v, SBF_CODE_LATTICE_NONMANIFOLD, path, i,
-        "tetrahedron %u stands on a face that tetrahedron %u and another share already", i, use->first);
+        "tetrahedron %u is on a face that tetrahedron %u and another share already", i, use->first);
   else if (use->upwards == upwards)
     sbfi_found(v, SBF_CODE_LATTICE_OVERLAP, path, i,
         "tetrahedron %u lies on the same side of a face as tetrahedron %u", i, use->first);
@@ -123,7 +123,7 @@ static void check_lattice(sbfi_validation *v, const sbf_level *level, const char
   sbfi_path tetrahedra = sbfi_path_of("%s/tetrahedra", path);
   if (level->lattice.tetrahedra.count == 0) {
     if (level->model == SBF_ELASTIC_MODEL_TETRAHEDRA)
-      sbfi_found(v, SBF_CODE_LEVEL_EMPTY, path, -1, "the level's model is tetrahedra and it has none");
+      sbfi_found(v, SBF_CODE_LEVEL_EMPTY, path, -1, "the level's model is tetrahedra, but it has none");
     return;
   }
   find_slivers(v, level, tetrahedra.text);

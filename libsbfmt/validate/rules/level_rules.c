@@ -13,7 +13,7 @@ static void check_map(sbfi_validation *v, const sbf_level *level, const char *pa
     uint32_t point = sbfi_level_point(level, i);
     if (point == UINT32_MAX) continue;
     if (source[point])
-      sbfi_found(v, SBF_CODE_LEVEL_MAP, path, i, "source points %u and %u are both point %u of the level",
+      sbfi_found(v, SBF_CODE_LEVEL_MAP, path, i, "source points %u and %u both map to point %u of the level",
           source[point] - 1, i, point);
     source[point] = i + 1;
   }
@@ -100,12 +100,12 @@ static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sb
   }
   if (loose && level->model == SBF_ELASTIC_MODEL_SPRINGS && level->springs.count)
     sbfi_found(v, SBF_CODE_POINT_LOOSE, sbfi_path_of("%s/positions", path).text, first,
-        "%u free point%s of '%s' hang%s on no spring", loose, sbfi_plural(loose),
-        sbfi_label(body->name, body->id), loose == 1 ? "s" : "");
+        "%u free point%s of '%s' %s no spring", loose, sbfi_plural(loose), sbfi_label(body->name, body->id),
+        loose == 1 ? "has" : "have");
   if (adrift && adrift + anchored > 1 && level->model != SBF_ELASTIC_MODEL_TETRAHEDRA)
     sbfi_found(v, SBF_CODE_LEVEL_PIECES, path, -1,
-        "the level of '%s' consists of %u pieces, of which %u hang%s on nothing",
-        sbfi_label(body->name, body->id), adrift + anchored, adrift, adrift == 1 ? "s" : "");
+        "the level of '%s' consists of %u pieces, and %u of them fall%s", sbfi_label(body->name, body->id),
+        adrift + anchored, adrift, adrift == 1 ? "s" : "");
 }
 
 static void check_masses(
@@ -143,7 +143,7 @@ static void check_order(sbfi_validation *v, uint32_t body) {
     uint64_t before = element_count(&levels.at[l - 1]), here = element_count(&levels.at[l]);
     if (levels.at[l].model == levels.at[l - 1].model && here > before)
       sbfi_found(v, SBF_CODE_LEVEL_ORDER, sbfi_path_of("/sbf/soft_body[%u]/level[%u]", body + 1, l + 1).text,
-          -1, "level %u of '%s' has %llu elements and the one before it %llu", l + 1, name,
+          -1, "level %u of '%s' has %llu elements, but the level before it has %llu", l + 1, name,
           (unsigned long long)here, (unsigned long long)before);
   }
 }

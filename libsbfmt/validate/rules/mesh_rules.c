@@ -15,7 +15,7 @@ static void check_normals(const seen *s) {
   sbfi_path path = sbfi_path_of("%s/normals", s->path.text);
   if (mesh->normals.count && mesh->normal_corners.count == 0 &&
       mesh->normals.count != mesh->mesh.positions.count)
-    sbfi_found(s->v, SBF_CODE_NORMALS_LENGTH, path.text, -1, "'%s' has %u normals and %u points",
+    sbfi_found(s->v, SBF_CODE_NORMALS_LENGTH, path.text, -1, "'%s' has %u normals, but %u points",
         sbfi_label(mesh->name, mesh->id), mesh->normals.count, mesh->mesh.positions.count);
   for (uint32_t i = 0; i < mesh->normals.count; i++) {
     sbf_vec3 n = mesh->normals.at[i];
@@ -31,7 +31,7 @@ static void check_colors(const seen *s) {
   if (mesh->colors.count && mesh->color_corners.count == 0 &&
       mesh->colors.count != mesh->mesh.positions.count)
     sbfi_found(s->v, SBF_CODE_COLORS_LENGTH, sbfi_path_of("%s/colors", s->path.text).text, -1,
-        "'%s' has %u colours and %u points", sbfi_label(mesh->name, mesh->id), mesh->colors.count,
+        "'%s' has %u colours, but %u points", sbfi_label(mesh->name, mesh->id), mesh->colors.count,
         mesh->mesh.positions.count);
 }
 
@@ -40,7 +40,7 @@ static void check_uv_sets(const seen *s) {
     const sbf_uv_set *set = &s->mesh->uv_sets.at[u];
     if (set->corners.count == 0 && set->coordinates.count != s->mesh->mesh.positions.count)
       sbfi_found(s->v, SBF_CODE_UV_LENGTH, sbfi_path_of("%s/uv_set[%u]", s->path.text, u + 1).text, -1,
-          "uv set '%s' of '%s' has %u coordinates and the mesh %u points", set->name,
+          "uv set '%s' of '%s' has %u coordinates, but the mesh has %u points", set->name,
           sbfi_label(s->mesh->name, s->mesh->id), set->coordinates.count, s->mesh->mesh.positions.count);
   }
 }
@@ -54,7 +54,7 @@ static void check_materials(const seen *s) {
                          material->normal_texture < 0))
       continue;
     sbfi_found(s->v, SBF_CODE_MATERIAL_NO_UVS, sbfi_path_of("%s/material_slot[%u]", s->path.text, i + 1).text,
-        -1, "'%s' wears the material '%s' with an image and has no texture coordinates",
+        -1, "'%s' has the material '%s' with an image, but no texture coordinates",
         sbfi_label(s->mesh->name, s->mesh->id), sbfi_label(material->name, material->id));
   }
 }

@@ -39,7 +39,7 @@ static void find_repeated(sbfi_validation *v, const collection *c) {
       first = i;
     else
       sbfi_found(v, c->code, sbfi_path_of("%s[%u]", c->path, all[i].index + 1).text, -1,
-          "the name '%s' is that of %s %u as well", all[i].name, c->kind, all[first].index + 1);
+          "the name '%s' is also that of %s %u", all[i].name, c->kind, all[first].index + 1);
   }
 }
 
@@ -81,6 +81,6 @@ void sbfi_check_names(sbfi_validation *v) {
   for (uint32_t i = 0; i < a->extensions.count; i++)
     if (!is_extension_name(a->extensions.at[i].name))
       sbfi_found(v, SBF_CODE_EXTENSION_NAME, sbfi_path_of("/sbf/extensions/extension[%u]", i + 1).text, -1,
-          "the extension is called '%s'", a->extensions.at[i].name);
+          "the extension has the name '%s'", a->extensions.at[i].name);
   check_hashes(v);
 }

@@ -16,8 +16,7 @@ static void check_size(sbfi_validation *v) {
   double size = sbfi_asset_extent(v->asset), scale = sbfi_plausible_scale(size);
   if (scale != 1)
     sbfi_found(v, SBF_CODE_UNIT_LOOKS_WRONG, "/sbf", -1,
-        "everything together measures %.4g m; %.4g times as large it would be %.4g m", size, scale,
-        size * scale);
+        "the whole asset measures %.4g m; scaled by %.4g it would measure %.4g m", size, scale, size * scale);
 }
 
 /* The bound on a spring network's angular frequencies needs flat arrays of all sets. */
@@ -52,7 +51,7 @@ static void check_substeps(
   double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick - 1e-3);
   if ((double)level->simulation.substeps < needed)
     sbfi_found(v, SBF_CODE_SUBSTEPS_TOO_FEW, path, -1,
-        "%u substep%s asked for and the stiffness of '%s' needs %.0f", level->simulation.substeps,
+        "%u substep%s requested, but the stiffness of '%s' needs %.0f", level->simulation.substeps,
         level->simulation.substeps == 1 ? " is" : "s are", sbfi_label(body->name, body->id), needed);
 }
 
@@ -70,7 +69,7 @@ static void check_weight(
   double stress = is->mass / is->volume * gravity * fabs((double)body->attributes.gravity_scale) * height;
   if (stress > MAX_SAG * (double)body->attributes.young_modulus)
     sbfi_found(v, SBF_CODE_BODY_COLLAPSES, path, -1,
-        "the weight of '%s' presses with %.3g Pa and its Young's modulus is %.3g Pa",
+        "the weight of '%s' causes a pressure of %.3g Pa, but its Young's modulus is %.3g Pa",
         sbfi_label(body->name, body->id), stress, (double)body->attributes.young_modulus);
 }
 
@@ -84,8 +83,9 @@ static void check_pressure(
     return;
   }
   if (is->sheet || t.boundary_edge_count)
-    sbfi_found(v, SBF_CODE_PRESSURE_OPEN, path, -1, "the pressure mode of '%s' is %s and its surface is open",
-        sbfi_label(body->name, body->id), sbf_pressure_mode_name(body->attributes.pressure_mode));
+    sbfi_found(v, SBF_CODE_PRESSURE_OPEN, path, -1,
+        "the pressure mode of '%s' is %s, but its surface is open", sbfi_label(body->name, body->id),
+        sbf_pressure_mode_name(body->attributes.pressure_mode));
 }
 
 static void check_attributes(
@@ -95,7 +95,7 @@ static void check_attributes(
   sbfi_path attributes = sbfi_path_of("%s/attributes", path);
   if (body->surface.polygon_sizes.count && !(is->mass > 0))
     sbfi_found(v, SBF_CODE_BODY_NO_MASS, path, -1,
-        "'%s' encloses nothing and states neither mass nor area density", name);
+        "'%s' encloses no volume and has neither a mass nor an area density", name);
   if (is_no_matter((double)a->density))
     sbfi_found(v, SBF_CODE_DENSITY_LOOKS_WRONG, attributes.text, -1, "the density of '%s' is %.4g kg/m^3",
         name, (double)a->density);
@@ -143,10 +143,10 @@ static void check_poisson(sbfi_validation *v) {
     path = sbfi_path_of("/sbf/soft_body[%u]/level[%u]", b + 1, level);
   }
   if (count == 0) return;
-  if (count > 1) snprintf(others, sizeof others, " (so do %u more)", count - 1);
+  if (count > 1) snprintf(others, sizeof others, " (as do %u more)", count - 1);
   sbfi_found(v, SBF_CODE_POISSON_UNSHOWN, path.text, -1,
-      "'%s' asks for the Poisson ratio %.3g%s, and central springs show a quarter",
-      sbfi_label(first->name, first->id), (double)first->attributes.poisson_ratio, others);
+      "'%s' has the Poisson ratio %.3g%s, but springs have 0.25", sbfi_label(first->name, first->id),
+      (double)first->attributes.poisson_ratio, others);
 }
 
 void sbfi_check_physics(sbfi_validation *v) {

@@ -51,7 +51,7 @@ static void check_offsets(const pinned_point *h, const sbf_pin_set *set, const c
   }
   if (far)
     sbfi_found(h->v, SBF_CODE_PIN_OFFSET, sbfi_path_of("%s/offsets", path).text, first,
-        "pin set '%s' draws %u point%s by up to %.3g m, more than '%s' is long", set->name, far,
+        "pin set '%s' moves %u point%s by up to %.3g m, more than the size of '%s'", set->name, far,
         sbfi_plural(far), max, sbfi_label(h->body->name, h->body->id));
 }
 
@@ -64,8 +64,8 @@ static void check_points(
     float weight = sbfi_pin_weight(set, i);
     has_weight |= weight > 0;
     if (point_pins[p].set && (point_pins[p].fast || point_pins[p].set == number + 1))
-      sbfi_found(h->v, SBF_CODE_PIN_REPEATED, points.text, i, "point %u of '%s' is held by set %u already", p,
-          sbfi_label(h->body->name, h->body->id), point_pins[p].set);
+      sbfi_found(h->v, SBF_CODE_PIN_REPEATED, points.text, i, "point %u of '%s' is already pinned by set %u",
+          p, sbfi_label(h->body->name, h->body->id), point_pins[p].set);
     else
       point_pins[p] = (point_pin){number + 1, weight >= 1};
   }
@@ -80,8 +80,8 @@ static void check_sets(const pinned_point *h, const sbf_pin_set_list *sets) {
     const sbf_pin_set *set = &sets->at[s];
     sbfi_path path = sbfi_path_of("%s/pins/pin_set[%u]", h->parent, s + 1);
     if (set->points.count == 0)
-      sbfi_found(h->v, SBF_CODE_PIN_SET_EMPTY, path.text, -1, "pin set '%s' of '%s' holds no point",
-          set->name, sbfi_label(h->body->name, h->body->id));
+      sbfi_found(h->v, SBF_CODE_PIN_SET_EMPTY, path.text, -1, "pin set '%s' of '%s' has no points", set->name,
+          sbfi_label(h->body->name, h->body->id));
     if (set->minimum > set->maximum)
       sbfi_found(h->v, SBF_CODE_PIN_RANGE, path.text, -1,
           "pin set '%s' has the minimum %.4g and the maximum %.4g", set->name, (double)set->minimum,
@@ -114,7 +114,7 @@ static void check_attachments(sbfi_validation *v, const sbf_soft_body *body, con
     const sbf_rigid_body *by = &v->asset->rigid_bodies.at[rule->rigid_body];
     sbfi_path path = sbfi_path_of("%s/attachments/attachment[%u]", parent, i + 1);
     if (rule->rule == SBF_ATTACHMENT_RULE_EXPLICIT && rule->points.count == 0)
-      sbfi_found(v, SBF_CODE_ATTACHMENT_EMPTY, path.text, -1, "attachment '%s' of '%s' lists no point",
+      sbfi_found(v, SBF_CODE_ATTACHMENT_EMPTY, path.text, -1, "attachment '%s' of '%s' has no points",
           rule->name, sbfi_label(body->name, body->id));
     if (rule->rule != SBF_ATTACHMENT_RULE_INSIDE_HULL) continue;
     if (!by->hull)
@@ -141,7 +141,7 @@ static void check_body(sbfi_validation *v, const sbf_soft_body *body, const char
     bool jiggles = level->model == SBF_ELASTIC_MODEL_JIGGLE; /* its bone moves it, without pins */
     if (body->bone >= 0 && level->pins.count == 0 && !jiggles)
       sbfi_found(v, SBF_CODE_SECTION_UNHELD, parent.text, -1,
-          "section '%s' has a bone and no pins, it falls off", sbfi_label(body->name, body->id));
+          "section '%s' has a bone but no pins, so it falls off", sbfi_label(body->name, body->id));
   }
 }
 

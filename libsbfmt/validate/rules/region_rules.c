@@ -44,7 +44,7 @@ static void check_regions(sbfi_validation *v, const sbf_level *level, const char
     }
     if (is_flat(level->positions.at, &r))
       sbfi_found(v, SBF_CODE_REGION_FLAT, sbfi_path_of("%s/shape_regions/sizes", path).text, r.number,
-          "region %u, of %u point%s, is flat", r.number, r.size, sbfi_plural(r.size));
+          "region %u with %u point%s is flat", r.number, r.size, sbfi_plural(r.size));
   }
   uint32_t left_out = 0;
   sbf_level_pinned_points(level, pinned);
@@ -60,10 +60,10 @@ static void check_level(sbfi_validation *v, const sbf_level *level, const char *
       check_regions(v, level, path);
     else
       sbfi_found(
-          v, SBF_CODE_LEVEL_EMPTY, path, -1, "the level's model is shape_matching and it has no region");
+          v, SBF_CODE_LEVEL_EMPTY, path, -1, "the level's model is shape_matching, but it has no region");
   }
   if (level->model == SBF_ELASTIC_MODEL_JIGGLE && !level->jiggle)
-    sbfi_found(v, SBF_CODE_LEVEL_EMPTY, path, -1, "the level's model is jiggle and it has no jiggle");
+    sbfi_found(v, SBF_CODE_LEVEL_EMPTY, path, -1, "the level's model is jiggle, but it has no jiggle");
 }
 
 void sbfi_check_regions(sbfi_validation *v) {

@@ -28,7 +28,7 @@ static uint32_t triangle_count(uint32_t corners, uint32_t polygons) {
 static void check_order(const seen_level *s, uint32_t here, uint32_t before) {
   if (here >= before)
     sbfi_found(s->v, SBF_CODE_RENDER_LEVEL_ORDER, s->path.text, -1,
-        "render level %u of '%s' has %u triangles and the one before it %u", s->number, label(s), here,
+        "render level %u of '%s' has %u triangles, but the level before it has %u", s->number, label(s), here,
         before);
 }
 
@@ -37,7 +37,7 @@ static void check_corners(const seen_level *s) {
   for (uint32_t i = 0; i < s->level->corners.count; i++)
     if (full[s->level->corners.at[i]] != s->level->polygon_points.at[i])
       sbfi_found(s->v, SBF_CODE_RENDER_LEVEL_CORNER, sbfi_path_of("%s/corners", s->path.text).text, i,
-          "corner %u of render level %u of '%s' is at point %u and named for corner %u, at point %u", i,
+          "corner %u of render level %u of '%s' is at point %u, but refers to corner %u at point %u", i,
           s->number, label(s), s->level->polygon_points.at[i], s->level->corners.at[i],
           full[s->level->corners.at[i]]);
 }
@@ -74,7 +74,7 @@ static void check_error(const seen_level *s) {
   }
   if (sqrt(far) > stated)
     sbfi_found(s->v, SBF_CODE_RENDER_LEVEL_ERROR, s->path.text, -1,
-        "render level %u of '%s' states an error of %.4g m, and a point of the mesh is %.4g m from it",
+        "render level %u of '%s' states an error of %.4g m, but a point of the mesh is %.4g m from it",
         s->number, label(s), (double)s->level->error, sqrt(far));
 }
 

@@ -13,7 +13,7 @@ static void check_hull(sbfi_validation *v, const sbf_rigid_body *body, const cha
         sbfi_label(body->name, body->id));
     return;
   case SBFI_HULL_FAULT_CONCAVE:
-    sbfi_found(v, SBF_CODE_HULL_NOT_CONVEX, hull.text, -1, "the hull of '%s' is not convex, or faces inwards",
+    sbfi_found(v, SBF_CODE_HULL_NOT_CONVEX, hull.text, -1, "the hull of '%s' is not convex or faces inwards",
         sbfi_label(body->name, body->id));
     return;
   case SBFI_HULL_FAULT_MEMORY:
@@ -44,7 +44,7 @@ void sbfi_check_rigid_bodies(sbfi_validation *v) {
     if (body->hull) check_hull(v, body, path.text);
     if (!body->hull && body->mass == 0 && body->motion == SBF_BODY_MOTION_DYNAMIC)
       sbfi_found(v, SBF_CODE_BODY_NO_MASS, path.text, -1,
-          "'%s' is simulated and has neither a hull nor a mass", sbfi_label(body->name, body->id));
+          "'%s' is simulated but has neither a hull nor a mass", sbfi_label(body->name, body->id));
     check_inertia(v, body, path.text);
   }
 }

@@ -24,14 +24,14 @@ void sbfi_check_sections(sbfi_validation *v) {
     const sbf_soft_body *body = &bodies.at[i];
     sbfi_path path = sbfi_path_of("/sbf/soft_body[%u]", i + 1);
     if (v->asset->bones.count && body->bone < 0 && body->pins.count == 0 && body->attachments.count == 0)
-      sbfi_found(v, SBF_CODE_SECTION_NO_BONE, path.text, -1, "body '%s' names no bone and has no pins",
+      sbfi_found(v, SBF_CODE_SECTION_NO_BONE, path.text, -1, "body '%s' has neither a bone nor pins",
           sbfi_label(body->name, body->id));
     if (body->bone < 0 || body->surface.positions.count == 0) continue;
     const sbf_bone *bone = &v->asset->bones.at[body->bone];
     double size = sbfi_extent(body->surface.positions),
            distance = distance_from(bone, body->surface.positions);
     if (distance > fmax(size, (double)bone->length))
-      sbfi_found(v, SBF_CODE_SECTION_FAR, path.text, -1, "section '%s' lies %.3g m from its bone '%s'",
+      sbfi_found(v, SBF_CODE_SECTION_FAR, path.text, -1, "section '%s' is %.3g m from its bone '%s'",
           sbfi_label(body->name, body->id), distance, sbfi_bone_label(v->asset, (uint32_t)body->bone));
   }
 }

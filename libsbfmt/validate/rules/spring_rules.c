@@ -45,18 +45,18 @@ static void check_set(const spring_level *l, uint32_t number) {
     }
     check_length(l, set, i, ends.text);
     if (l->pin_states[p[0]] == SBFI_PINNED && l->pin_states[p[1]] == SBFI_PINNED)
-      sbfi_found(l->v, SBF_CODE_SPRING_INERT, ends.text, i, "spring %u joins two held points, %u and %u", i,
+      sbfi_found(l->v, SBF_CODE_SPRING_INERT, ends.text, i, "spring %u joins two pinned points, %u and %u", i,
           p[0], p[1]);
   }
   for (uint32_t i = 0; i < set->stiffness.count && set->ends.count; i++)
     if (set->stiffness.at[i] == 0)
       sbfi_found(l->v, SBF_CODE_SPRING_LIMP, stiffness.text, i,
-          set->stiffness.count < set->ends.count ? "the springs of the set have the stiffness 0"
-                                                 : "spring %u has the stiffness 0",
+          set->stiffness.count < set->ends.count ? "the springs of the set have a stiffness of 0"
+                                                 : "spring %u has a stiffness of 0",
           i);
   if (l->at->model != SBF_ELASTIC_MODEL_SPRINGS && !set->extra && set->ends.count)
     sbfi_found(l->v, SBF_CODE_SPRING_IDLE, path.text, -1,
-        "the %s springs stand beside another model and are not marked extra",
+        "the %s springs belong to a level of another model and are not marked extra",
         sbf_spring_kind_name(set->kind));
   sbfi_check_strain_order(l->v,
       &(sbfi_strains){set->strain_min, set->strain_max, set->yield_strain, set->tear_strain}, path.text);
@@ -81,7 +81,7 @@ static void find_duplicates(const spring_level *l) {
       if (first == number) continue;
       for (; first >= sets.at[set].ends.count; set++) first -= sets.at[set].ends.count;
       sbfi_found(l->v, SBF_CODE_SPRING_DUPLICATE, path.text, i,
-          "points %u and %u are joined already by spring %u of set %u", p[0], p[1], first, set + 1);
+          "points %u and %u are already joined by spring %u of set %u", p[0], p[1], first, set + 1);
     }
   }
 }
@@ -93,7 +93,7 @@ static void check_level(sbfi_validation *v, const sbf_level *level, const char *
   for (uint32_t s = 0; s < level->springs.count; s++) check_set(&l, s);
   find_duplicates(&l);
   if (level->model == SBF_ELASTIC_MODEL_SPRINGS && level->springs.count == 0)
-    sbfi_found(v, SBF_CODE_LEVEL_EMPTY, path, -1, "the level's model is springs and it has none");
+    sbfi_found(v, SBF_CODE_LEVEL_EMPTY, path, -1, "the level's model is springs, but it has none");
 }
 
 void sbfi_check_springs(sbfi_validation *v) {

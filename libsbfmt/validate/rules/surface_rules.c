@@ -36,7 +36,7 @@ static void find_extra_polygons(const surface *s) {
     }
     if (crowded && lonely)
       sbfi_found(s->v, SBF_CODE_SURFACE_STRAY_POLYGON, s->polygons.text, p,
-          "polygon %u of '%s', with %u corners, stands on an edge that two others share already", p, s->name,
+          "polygon %u of '%s', with %u corners, is on an edge that two others share already", p, s->name,
           t->corner_begins[p + 1] - t->corner_begins[p]);
   }
 }
@@ -111,7 +111,7 @@ static void check_winding(const surface *s) {
   if (s->t.clashing_edge_count == 0) return;
   uint32_t p = first_opposite_pair(s);
   sbfi_found(s->v, SBF_CODE_SURFACE_WINDING, s->polygons.text, p,
-      "%u edge%s of '%s' lie%s between polygons that face opposite ways, the first at polygon %u",
+      "%u edge%s of '%s' lie%s between polygons that face opposite directions, the first at polygon %u",
       s->t.clashing_edge_count, sbfi_plural(s->t.clashing_edge_count), s->name,
       s->t.clashing_edge_count == 1 ? "s" : "", p);
 }
@@ -152,8 +152,8 @@ static void find_crossings(const surface *s) {
   }
   for (uint32_t p = 0; p < s->t.polygon_count; p++)
     if (partners[p] != SBFI_NO_CROSSING)
-      sbfi_found(s->v, SBF_CODE_SURFACE_CROSSES, s->polygons.text, p,
-          "polygon %u of '%s' passes through polygon %u", p, s->name, partners[p]);
+      sbfi_found(s->v, SBF_CODE_SURFACE_CROSSES, s->polygons.text, p, "polygon %u of '%s' crosses polygon %u",
+          p, s->name, partners[p]);
 }
 
 /* Finds interior points outside the surface by more than rounding. */

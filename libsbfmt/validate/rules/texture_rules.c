@@ -48,7 +48,7 @@ void sbfi_check_textures(sbfi_validation *v) {
       sbfi_found(
           v, SBF_CODE_TEXTURE_EMPTY, path.text, -1, "the image '%s' has neither a path nor bytes", name);
     if (texture->bytes.count && !is_of_type(texture))
-      sbfi_found(
-          v, SBF_CODE_TEXTURE_TYPE, path.text, -1, "the bytes of '%s' are no %s", name, texture->media_type);
+      sbfi_found(v, SBF_CODE_TEXTURE_TYPE, path.text, -1, "the bytes of '%s' are not of the type %s", name,
+          texture->media_type);
   }
 }

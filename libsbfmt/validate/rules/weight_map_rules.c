@@ -47,8 +47,8 @@ static void check_density(
   mark_pinned(body, pinned);
   for (uint32_t i = 0; i < factors.count; i++)
     if (factors.at[i] == 0 && !pinned[i])
-      sbfi_found(v, SBF_CODE_WEIGHT_MAP_ZERO, path, i,
-          "the map of the density is 0 at the free point %u of '%s'", i, sbfi_label(body->name, body->id));
+      sbfi_found(v, SBF_CODE_WEIGHT_MAP_ZERO, path, i, "the density map is 0 at the free point %u of '%s'", i,
+          sbfi_label(body->name, body->id));
 }
 
 static void check_modulus(
@@ -56,7 +56,7 @@ static void check_modulus(
   for (uint32_t i = 0; i < factors.count; i++)
     if (factors.at[i] > 0) return;
   if (factors.count)
-    sbfi_found(v, SBF_CODE_WEIGHT_MAP_ZERO, path, -1, "the map of the modulus is 0 at every point of '%s'",
+    sbfi_found(v, SBF_CODE_WEIGHT_MAP_ZERO, path, -1, "the modulus map is 0 at every point of '%s'",
         sbfi_label(body->name, body->id));
 }
 
@@ -66,7 +66,7 @@ static void check_map(
   if (map->property == SBF_WEIGHT_PROPERTY_DENSITY) check_density(v, body, map->values, values.text);
   if (map->property == SBF_WEIGHT_PROPERTY_YOUNG_MODULUS) check_modulus(v, body, map->values, values.text);
   if (is_idle(body, map->property))
-    sbfi_found(v, SBF_CODE_WEIGHT_MAP_IDLE, path, -1, "a map scales the %s of '%s', which has none",
+    sbfi_found(v, SBF_CODE_WEIGHT_MAP_IDLE, path, -1, "a map scales the %s of '%s', which is 0",
         sbf_weight_property_name(map->property), sbfi_label(body->name, body->id));
 }
 

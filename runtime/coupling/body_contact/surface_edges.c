@@ -51,7 +51,7 @@ static void find_ridges(sbri_contact_surface *s) {
 /* The edge table uses the tree's memory as scratch: the tree is not built yet and is larger. */
 bool sbri_surface_edges_create(sbri_contact_surface *s, sbfi_arena *arena) {
   _Static_assert(
-      sizeof(sbri_bounds_node) >= 8 * sizeof(uint32_t), "a table has less than 12 entries a triangle");
+      sizeof(sbri_bounds_node) >= 8 * sizeof(uint32_t), "a table has less than 12 entries per triangle");
   s->edge_flags = sbfi_arena_allocate(arena, (size_t)s->triangle_count + 1, 1);
   s->opposite_vertices =
       sbfi_arena_allocate(arena, 3 * (size_t)s->triangle_count + 1, sizeof *s->opposite_vertices);

@@ -130,7 +130,7 @@ CALL(queue) {
   UNUSED;
   if (has_player(one) && read_request(one, arguments, &request, &layer) &&
       !clip_player_queue(one, layer, &request))
-    soft_character_error(one, "queue: 8 clips wait already");
+    soft_character_error(one, "queue: 8 clips are waiting already: wait until one of them has started");
 }
 
 static const clip_layer *layer_of(const soft_character *one, const gd_variant *layer) {

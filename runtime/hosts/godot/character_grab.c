@@ -112,7 +112,7 @@ CALL(drag) {
   UNUSED;
   if (!one->world) return;
   if (!one->is_grabbed)
-    soft_character_error(one, "drag: nothing is grabbed: call grab first, which says whether it could");
+    soft_character_error(one, "drag: nothing is grabbed: call grab first and check its result");
   else
     hold(one, gd_as_vector3(arguments[0]));
 }

@@ -217,7 +217,7 @@ void character_mesh_dress_surfaces(character_mesh *mesh, const soft_character *o
       snprintf(message, sizeof message, "surface_materials: %s: %s", text,
           is_material
               ? "a key is a render mesh's name, a slash and the number of one of its surfaces, as Head/0"
-              : "that is no Material");
+              : "the value is not a Material");
       soft_character_error(one, message);
     }
     gd_free(&key);

@@ -199,7 +199,7 @@ static void check_mirrored(soft_character *one, const gd_transform *now) {
                       m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
   if (determinant < 0 && !one->is_mirrored)
     soft_character_error(
-        one, "its scale is negative: a character is not mirrored, and has the size of a positive scale");
+        one, "its scale is negative: a character cannot be mirrored, so the absolute scale is used");
   one->is_mirrored = determinant < 0;
 }
 

@@ -30,8 +30,8 @@ static void set_asset(void *self, const gd_variant *const *arguments, gd_variant
   (void)result;
   if (gd_as_object(&one->asset_value) == gd_as_object(arguments[0])) return;
   if (gd_as_object(arguments[0]) && !gd_class_instance(&soft_asset_class, gd_as_object(arguments[0]))) {
-    soft_character_error(
-        one, "asset: that is no SoftAsset: load a .sbfz, or a .sbf that the plugin sbfmt has imported");
+    soft_character_error(one,
+        "asset: the value is not a SoftAsset: load a .sbfz, or a .sbf that the plugin sbfmt has imported");
     return;
   }
   if (gd_as_object(&one->asset_value))
@@ -275,11 +275,11 @@ static void warnings(void *self, const gd_variant *const *arguments, gd_variant 
                   "imported."));
   if (is_tilted(&at))
     GD_DO(result, "push_back",
-        gd_string("It is tilted, and stands upright all the same: a character turns about +Y alone. Set the "
-                  "rotation about X and Z to 0."));
+        gd_string("The node is tilted, but the character stands upright: a character rotates only about +Y. "
+                  "Set the rotation about X and Z to 0."));
   if (is_uneven(&at))
     GD_DO(result, "push_back",
-        gd_string("It is scaled unevenly: a character has one scale, the same along all axes."));
+        gd_string("The node is scaled unevenly: a character has one scale, the same along all axes."));
 }
 
 const gd_method soft_character_virtuals[] = {

@@ -242,10 +242,8 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
   mirrored *unused = find_unused(bodies, one->world);
   if (!unused) {
     if (!bodies->warned)
-      soft_character_warning(one,
-          "more than 256 shapes of bodies are near it, and it passes through the rest "
-          "(said of the first one alone). Take some off the layers of its "
-          "collision_mask");
+      soft_character_warning(one, "more than 256 shapes of bodies are near it, and it passes through the "
+                                  "rest (reported once). Remove some from the layers of its collision_mask");
     bodies->warned = true;
     return;
   }

@@ -72,9 +72,9 @@ static bool finds_floor(const soft_character *one, const gd_variant *space, doub
 /* Once only, since it may be intended, as for a flying character. */
 static void warn_of_nothing(const soft_character *one) {
   one->ground->warned = true;
-  soft_character_warning(one, "there is no ground: nothing below it has a layer of its collision_mask. It "
-                              "stands where it was put. Add "
-                              "a StaticBody3D with a CollisionShape3D, or set ground to GROUND_FLAT");
+  soft_character_warning(one,
+      "there is no ground: nothing below it has a layer of its collision_mask, so it stays where it is. "
+      "Add a StaticBody3D with a CollisionShape3D, or set ground to GROUND_FLAT");
 }
 
 void physics_ground_query(soft_character *one) {

@@ -32,8 +32,8 @@ static sbr_shape *made_of(const sbr_shape_definition *form, const gd_variant *ob
   gd_variant text = GD_CALL(object, "to_string");
   gd_as_text(&text, name, sizeof name);
   gd_free(&text);
-  snprintf(message, sizeof message, "SoftCharacter3D passes through %s: %s (said of the first one alone)",
-      name, error.message);
+  snprintf(
+      message, sizeof message, "SoftCharacter3D passes through %s: %s (reported once)", name, error.message);
   gd_warning(message);
   return NULL;
 }

@@ -80,7 +80,7 @@ static bool find_bones(soft_character *one, const gd_variant *skeleton) {
     found += pose->bones[i] >= 0;
   }
   if (!found)
-    soft_character_error(one, "pose_source: no bone of that Skeleton3D has the name of one of the asset's");
+    soft_character_error(one, "pose_source: no bone of that Skeleton3D has the name of a bone of the asset");
   return true;
 }
 
@@ -111,7 +111,8 @@ static void copy_skeleton(soft_character *one, pose_clip *clip) {
   bool good =
       gd_as_object(&skeleton) && gd_take_bool(GD_CALL(&skeleton, "is_class", gd_string("Skeleton3D")));
   if (!good && !pose->warned)
-    soft_character_error(one, "pose_source is no Skeleton3D, or not there: bones have their own animation");
+    soft_character_error(
+        one, "pose_source is not a Skeleton3D or does not exist: bones use their own animation");
   pose->warned = !good;
   if (!good) pose_driver_forget(one);
   if (good && find_bones(one, &skeleton))

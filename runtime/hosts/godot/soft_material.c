@@ -48,7 +48,7 @@ static gd_variant texture_beside(const soft_character *one, const sbf_texture *t
     found = GD_CALL(&loader, "load", gd_string(path), gd_string("Texture2D"));
   else {
     snprintf(message, sizeof message,
-        "the texture %s is not there: put it there, or export the character with its textures in it", path);
+        "the texture %s does not exist: put it there, or export the character with embedded textures", path);
     soft_character_warning(one, message);
   }
   gd_free(&from);

@@ -58,15 +58,15 @@ static sbf_status check_definition(const sbr_character_definition *definition, s
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: begin the definition with sbr_default_character_definition");
   if (!(definition->scale >= MIN_SCALE && definition->scale <= MAX_SCALE))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_character_create: scale is %g: give one from %g to %g", (double)definition->scale,
-        (double)MIN_SCALE, (double)MAX_SCALE);
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_character_create: scale is %g: use one from %g to %g",
+        (double)definition->scale, (double)MIN_SCALE, (double)MAX_SCALE);
   const double where[4] = {
       definition->position.x, definition->position.y, definition->position.z, (double)definition->heading};
   if (!sbri_usable(where, 4))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_character_create: position %g %g %g m or heading %g rad: give finite numbers, to 1e15", where[0],
-        where[1], where[2], where[3]);
+        "sbr_character_create: position %g %g %g m or heading %g rad is invalid: use finite numbers up to "
+        "1e15",
+        where[0], where[1], where[2], where[3]);
   return SBF_OK;
 }
 
@@ -93,7 +93,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
   while (index < world->character_capacity && world->characters[index].model) index++;
   if (index == world->character_capacity)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_character_create: the world holds its %u characters already: raise character_capacity",
+        "sbr_character_create: the world already has its maximum of %u characters: raise character_capacity",
         world->character_capacity);
   uint32_t detail_level = definition->detail_level < model->detail.level_count
                               ? definition->detail_level

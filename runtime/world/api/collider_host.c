@@ -64,15 +64,14 @@ static sbf_status check_body(
       (double)d->inertia_axes.w};
   if (!sbri_usable(numbers, 11) || numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 0 || numbers[3] < 0)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_collider_create: mass %g kg, inertia %g %g %g kg m^2, its axes or its centre: give finite "
-        "numbers, "
-        "to 1e15, none of the masses below 0",
+        "sbr_collider_create: mass %g kg, inertia %g %g %g kg m^2, its axes or its centre are invalid: use "
+        "finite numbers up to 1e15, with a mass and inertia of at least 0",
         numbers[0], numbers[1], numbers[2], numbers[3]);
   const sbri_collider *leader = collider_of((sbr_world *)world, d->part_of);
   if (d->part_of.value && (!leader || !(leader->body.inverse_mass > 0)))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_collider_create: part_of names no collider with a mass: make that one first, and give the parts "
-        "none");
+        "sbr_collider_create: part_of is not a collider with a mass: create that one first, and create its "
+        "parts without a mass");
   return SBF_OK;
 }
 
@@ -91,13 +90,12 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
   *collider = (sbr_collider_id){0};
   if (definition->cookie != COLLIDER_COOKIE || !definition->shape)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_collider_create: begin the definition with sbr_default_collider_definition, and give it a "
-        "shape");
+        "sbr_collider_create: begin the definition with sbr_default_collider_definition and set its shape");
   const double how[2] = {(double)definition->friction, (double)definition->restitution};
   if (!is_position(definition->position, definition->rotation) || !sbri_usable(how, 2))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_collider_create: position %g %g %g m, its rotation, friction %g or restitution %g: give finite "
-        "numbers, to 1e15",
+        "sbr_collider_create: position %g %g %g m, its rotation, friction %g or restitution %g is invalid: "
+        "use finite numbers up to 1e15",
         definition->position.x, definition->position.y, definition->position.z, how[0], how[1]);
   if (check_body(world, definition, error) != SBF_OK) return SBF_FAILED;
   sbri_collider_set *set = &world->colliders;
@@ -105,7 +103,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
   while (index < set->capacity && set->at[index].shape) index++;
   if (index == set->capacity)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_collider_create: the world holds its %u colliders already: raise collider_capacity",
+        "sbr_collider_create: the world already has its maximum of %u colliders: raise collider_capacity",
         (unsigned)set->capacity);
   sbf_quat rotation = sbri_quat_normalize(definition->rotation);
   sbri_collider *c = &set->at[index];

@@ -50,7 +50,8 @@ static bool make(sbr_world *world, uint32_t contacts) {
 sbf_status sbr_world_enable_body_contacts(sbr_world *world, uint32_t max_contacts, sbf_diagnostic *error) {
   if (!world || max_contacts > MAX_CONTACTS)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_enable_body_contacts: no world, or more than %d touches", (int)MAX_CONTACTS);
+        "sbr_world_enable_body_contacts: world is NULL, or the capacity exceeds %d contacts",
+        (int)MAX_CONTACTS);
   if (world->body_contacts || make(world, max_contacts ? max_contacts : DEFAULT_CONTACTS)) return SBF_OK;
-  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for bodies that meet each other");
+  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for contacts between bodies");
 }

@@ -59,11 +59,10 @@ sbf_status sbr_world_select_detail_levels(
   if (!sbri_usable(numbers, 6))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_world_select_detail_levels: error_px %g, budget_us %g, ns_per_visit %g, stay_s %g or "
-        "away_after_s %g: give "
-        "finite numbers, to 1e15",
+        "away_after_s %g is invalid: use finite numbers up to 1e15",
         numbers[0], numbers[1], numbers[2], numbers[4], numbers[5]);
   if (!world->detail && !make(world))
-    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for choosing levels of detail");
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to choose levels of detail");
   world->detail->is = *definition;
   return SBF_OK;
 }

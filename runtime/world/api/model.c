@@ -24,12 +24,13 @@ static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic
       (double)options->gravity.z, (double)options->step_error_m};
   if (!sbri_usable(numbers, options->has_gravity ? 3 : 0) || !sbri_usable(numbers + 3, 1))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_model_options: gravity %g %g %g m/s^2 or step_error_m %g: give finite numbers, to 1e15",
+        "sbr_model_options: gravity %g %g %g m/s^2 or step_error_m %g is invalid: use finite numbers up to "
+        "1e15",
         numbers[0], numbers[1], numbers[2], numbers[3]);
   if (!sbri_kernels_of(options->instructions)) {
     const char *name = sbr_instructions_get_name(options->instructions);
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "this processor, or this library, does not have instructions %s: ask for automatic",
+        "this processor or this library does not support the instructions %s: use automatic",
         name ? name : "of that number");
   }
   if (options->scheme == SBF_SCHEME_AUTOMATIC || sbri_scheme_of(options->scheme)) return SBF_OK;

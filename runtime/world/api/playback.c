@@ -204,11 +204,11 @@ sbf_status sbr_replay_begin(
   *replay = (sbr_replay){.world = world, .bytes = bytes};
   if (size < SBRI_RECORDING_MAGIC_BYTES ||
       memcmp(bytes, SBRI_RECORDING_MAGIC, SBRI_RECORDING_MAGIC_BYTES) != 0)
-    return sbfi_diagnose(error, SBF_CODE_IO_UNKNOWN_FORMAT, "this is no recording: it does not begin as one");
+    return sbfi_diagnose(error, SBF_CODE_IO_UNKNOWN_FORMAT, "this is not a recording: its header is missing");
   for (size_t step; (step = read(&r, size, &what, numbers, &bad)) > 0; r.at += step) {
     if (what == SBRI_RECORDED_MADE)
       return sbfi_diagnose(error, SBF_CODE_INDEX_OUT_OF_RANGE,
-          "characters were made while the recording went on, at byte %zu: make all before it begins", r.at);
+          "characters were created during the recording, at byte %zu: create all before it begins", r.at);
     r.frame_count += steps(what);
   }
   if (bad)

@@ -25,16 +25,16 @@ static bool find_body(const sbr_world *world, sbr_character_id character, uint32
   }
   uint32_t count = call->c->model->asset->soft_bodies.count;
   if (soft_body >= count) {
-    *status = sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "%s: soft body %u: the asset has %u", call->name, soft_body, count);
+    *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: soft body %u does not exist: the asset has %u",
+        call->name, soft_body, count);
     return false;
   }
   call->body = &call->c->model->bodies[soft_body];
   if (sbri_body_accepts_forces(call->c, call->body)) return true;
   bool forceless = call->body->level && call->c->model->islands[call->body->island].scheme->forceless;
   *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: soft body %u: %s", call->name, soft_body,
-      forceless ? "relaxation steps it, which knows no forces"
-                : "it is not simulated on this level of detail, or wholly pinned");
+      forceless ? "it is stepped by relaxation, which has no forces"
+                : "it is not simulated at this level of detail, or is completely pinned");
   return false;
 }
 
@@ -43,13 +43,13 @@ static bool find_vertex(
     soft_call *call, uint32_t vertex, bool may_be_whole, sbf_status *status, sbf_diagnostic *error) {
   if (vertex == SBR_WHOLE_BODY && may_be_whole) return true;
   if (vertex >= call->body->surface.skin.vertex_count)
-    *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: vertex %u: the surface has %u", call->name, vertex,
-        call->body->surface.skin.vertex_count);
+    *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: vertex %u does not exist: the surface has %u",
+        call->name, vertex, call->body->surface.skin.vertex_count);
   else if (sbri_vertex_carriers(call->c, call->body, vertex, &call->at))
     return true;
   else
-    *status = sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "%s: vertex %u follows bones alone: choose another", call->name, vertex);
+    *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "%s: vertex %u only follows bones: choose another vertex", call->name, vertex);
   return false;
 }
 
@@ -58,7 +58,7 @@ static sbf_status check_numbers(
   for (uint32_t i = 0; i < count; i++)
     if (!sbri_usable(&numbers[i], 1))
       return sbfi_diagnose(
-          error, SBF_CODE_BAD_CALL, "%s: %g is not a finite number within 1e15", name, numbers[i]);
+          error, SBF_CODE_BAD_CALL, "%s: %g is not a finite number up to 1e15", name, numbers[i]);
   return SBF_OK;
 }
 
@@ -156,7 +156,7 @@ static sbri_load *find_free_index(const soft_call *call, sbf_status *status, sbf
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++)
     if (sbri_loads(call->c)[i].kind == SBRI_LOAD_NONE) return &sbri_loads(call->c)[i];
   *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-      "%s: %d forces and holds act on the character already: release one, or wait", call->name,
+      "%s: the character already has its maximum of %d forces and holds: release one, or wait", call->name,
       SBR_LOAD_CAPACITY);
   return NULL;
 }
@@ -173,7 +173,7 @@ sbf_status sbr_character_apply_soft_force(sbr_world *world, sbr_character_id cha
   if ((status = check_numbers(call.name, numbers, 7, error)) != SBF_OK) return status;
   if (!(seconds > 0))
     return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "%s: %g seconds: give more than 0", call.name, (double)seconds);
+        error, SBF_CODE_BAD_CALL, "%s: %g seconds: use more than 0", call.name, (double)seconds);
   sbri_load *load = find_free_index(&call, &status, error);
   if (!load) return status;
   sbri_record(world, SBRI_RECORDED_SOFT_FORCE, numbers);
@@ -194,14 +194,14 @@ static sbf_status check_hold(const char *name, const sbr_soft_hold *hold, sbf_di
     return sbfi_diagnose(
         error, SBF_CODE_BAD_CALL, "%s: hold was not initialised: begin with sbr_default_soft_hold()", name);
   if (!(hold->frequency_hz >= 0 && hold->frequency_hz <= 100))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: frequency_hz is %g: give one from 0 to 100", name,
-        (double)hold->frequency_hz);
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "%s: frequency_hz is %g: use 0 to 100", name, (double)hold->frequency_hz);
   if (!(hold->damping_ratio >= 0 && hold->damping_ratio <= 10))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: damping_ratio is %g: give one from 0 to 10", name,
-        (double)hold->damping_ratio);
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "%s: damping_ratio is %g: use 0 to 10", name, (double)hold->damping_ratio);
   if (!(hold->max_force >= 0))
     return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "%s: max_force is %g N: give 0 or more", name, (double)hold->max_force);
+        error, SBF_CODE_BAD_CALL, "%s: max_force is %g N: use 0 or more", name, (double)hold->max_force);
   return SBF_OK;
 }
 

@@ -53,16 +53,16 @@ sbf_status sbr_world_create(
   if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= LONGEST_S) || capacity > MAX_CHARACTERS ||
       colliders > MAX_COLLIDERS || events > MAX_EVENTS || !(definition->hit_speed >= 0))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_create: tick %g s (0.0001 to 1), longest frame %g s (to 3600), capacity %u or %u "
-        "(to %d), event_capacity %u (to %d) or hit_speed %g m/s (not below 0)",
+        "sbr_world_create: out of range: tick %g s (0.0001 to 1), longest frame %g s (up to 3600), capacity "
+        "%u or %u (up to %d), event_capacity %u (up to %d) or hit_speed %g m/s (at least 0)",
         tick, longest, capacity, colliders, (int)MAX_CHARACTERS, events, (int)MAX_EVENTS,
         (double)definition->hit_speed);
   const double gravity[3] = {
       (double)definition->gravity.x, (double)definition->gravity.y, (double)definition->gravity.z};
   if ((definition->has_gravity && !sbri_usable(gravity, 3)) || !sbri_usable(&definition->sleep_after_s, 1))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_create: gravity %g %g %g m/s^2 or sleep_after_s %g: give finite numbers", gravity[0],
-        gravity[1], gravity[2], definition->sleep_after_s);
+        "sbr_world_create: gravity %g %g %g m/s^2 or sleep_after_s %g is invalid: use finite numbers",
+        gravity[0], gravity[1], gravity[2], definition->sleep_after_s);
   sbf_allocator allocator = sbfi_allocator_or_default(definition->allocator);
   sbr_world *made = sbfi_allocate(&allocator, sizeof *made);
   sbri_character *characters = sbfi_allocate(&allocator, capacity * sizeof *characters);

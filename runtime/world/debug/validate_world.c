@@ -36,7 +36,7 @@ static bool is_rotation(sbf_quat q) {
 static void check_pose(checking *k, const sbr_transform *pose, const char *what, uint32_t index) {
   enter(k, what, index);
   expect(k, is_finite(pose->position), "its position is not finite");
-  expect(k, is_rotation(pose->rotation), "its rotation is no unit quaternion");
+  expect(k, is_rotation(pose->rotation), "its rotation is not a unit quaternion");
 }
 
 /* ---- Soft bodies ---- */
@@ -54,7 +54,7 @@ static void check_points(checking *k, uint32_t number) {
   for (size_t i = 0; i < 3 * (size_t)island->free_count; i++) finite = finite && isfinite(velocities[i]);
   expect(k, finite, "a velocity of its points is not finite");
   const sbri_island_state *state = &sbri_island_states(k->c)[number];
-  expect(k, state->asleep <= 1 && state->reported_asleep <= 1, "its sleep is neither on nor off");
+  expect(k, state->asleep <= 1 && state->reported_asleep <= 1, "its sleep flag is neither 0 nor 1");
   expect(k, isfinite(state->stretch) && isfinite(state->min_ratio), "its measured strain is not finite");
 }
 
@@ -64,18 +64,18 @@ static void check_contacts(checking *k, uint32_t number) {
   if (!body->level || sbri_header(k->c)->asleep || sbri_island_states(k->c)[body->island].asleep) return;
   uint32_t count = sbri_contact_counts(k->c)[number];
   enter(k, "soft body", number);
-  if (!expect(k, count <= body->contact.max_count, "it has more contacts than room for them")) return;
+  if (!expect(k, count <= body->contact.max_count, "it has more contacts than its capacity")) return;
   for (uint32_t i = 0; i < count; i++) {
     const sbri_soft_contact *contact = &sbri_contacts(k->c)[body->contact.first + i];
     uint32_t slots = k->c->model->islands[body->island].slot_count;
     for (int p = 0; p < 4; p++)
-      expect(k, contact->sample.slots[p] < slots, "a contact lies on a point that is not its island's");
+      expect(k, contact->sample.slots[p] < slots, "a contact is on a point that is not in its island");
     float square = sbri_dot(contact->normal, contact->normal);
-    expect(k, square > 0.99f && square < 1.01f, "a contact's normal has no unit length");
+    expect(k, square > 0.99f && square < 1.01f, "a contact's normal is not of unit length");
     expect(k,
         contact->collider == SBRI_NO_COLLIDER || contact->collider == SBRI_ITSELF ||
             contact->collider < k->world->colliders.capacity,
-        "a contact is with a collider that is not there");
+        "a contact is with a collider that does not exist");
   }
 }
 
@@ -88,15 +88,15 @@ static void check_rigid_bodies(checking *k) {
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(k->c)[b];
     check_pose(k, &body->pose, "rigid body", b);
     expect(k, is_finite(body->velocity) && is_finite(body->angular_momentum), "its velocity is not finite");
-    expect(k, body->mode <= SBR_RIGID_DRIVEN, "its mode is none of sbr_rigid_mode");
+    expect(k, body->mode <= SBR_RIGID_DRIVEN, "its mode is not one of sbr_rigid_mode");
   }
   if (model->body_count == 0) return;
   enter(k, "rigid contacts of the character", 0);
   if (!expect(k, drive->stored_contacts <= sbri_rigid_contact_capacity(model),
-          "there are more than room for them"))
+          "there are more than the capacity"))
     return;
   for (uint32_t i = 0; i < drive->stored_contacts; i++)
-    expect(k, sbri_rigid_kept(k->c)[i].body < model->body_count, "one is of a body that is not there");
+    expect(k, sbri_rigid_kept(k->c)[i].body < model->body_count, "one belongs to a body that does not exist");
 }
 
 static void check_character(checking *k) {
@@ -109,8 +109,8 @@ static void check_character(checking *k) {
   expect(k,
       head->detail_level < c->model->detail.base->detail.level_count ||
           c->model->detail.base->detail.level_count == 0,
-      "its level of detail is not there");
-  expect(k, head->paused <= 1 && head->asleep <= 1, "its sleep is neither on nor off");
+      "its level of detail does not exist");
+  expect(k, head->paused <= 1 && head->asleep <= 1, "its sleep flag is neither 0 nor 1");
   for (uint32_t f = 0; f < c->model->frame_count; f++) check_pose(k, &sbri_pose(c)[f], "frame", f);
   for (uint32_t i = 0; i < c->model->island_count; i++) check_points(k, i);
   for (uint32_t b = 0; b < c->model->asset->soft_bodies.count; b++) check_contacts(k, b);
@@ -126,9 +126,9 @@ static void check_colliders(checking *k) {
     if (!collider->shape) continue;
     const double numbers[] = {collider->to.x, collider->to.y, collider->to.z};
     enter(k, "collider", i);
-    expect(k, i < set->end, "it lies behind the end of the list");
+    expect(k, i < set->end, "it is beyond the end of the list");
     expect(k, sbri_usable(numbers, 3) && is_rotation(collider->rotation_to), "its pose is not finite");
-    expect(k, collider->leader < set->capacity, "the body that it is part of is not there");
+    expect(k, collider->leader < set->capacity, "the body that it is part of does not exist");
   }
 }
 
@@ -140,8 +140,8 @@ static void check_body_contacts(checking *k) {
   const sbri_body_contacts *all = k->world->body_contacts;
   if (!all) return;
   enter(k, "contacts of bodies", 0);
-  expect(k, all->cached_count <= all->contact_capacity, "more impulses are stored than there is room for");
-  expect(k, all->touching_count <= all->contact_capacity, "more pairs touch than there is room for");
+  expect(k, all->cached_count <= all->contact_capacity, "more impulses are stored than the capacity");
+  expect(k, all->touching_count <= all->contact_capacity, "more pairs touch than the capacity");
   for (uint32_t i = 1; i < all->touching_count; i++)
     expect(k, is_before(all->touching[i - 1].body_ids, all->touching[i].body_ids),
         "pairs are not in ascending order");
@@ -159,7 +159,7 @@ sbf_status sbr_world_validate(const sbr_world *world, sbf_diagnostic *error) {
   checking k = {.world = world};
   for (uint32_t i = 0; i < SBRI_EVENT_KINDS; i++) {
     enter(&k, "events", i);
-    expect(&k, world->events.counts[i] <= world->events.capacity, "there are more than there is space for");
+    expect(&k, world->events.counts[i] <= world->events.capacity, "there are more than the capacity");
   }
   check_colliders(&k);
   check_body_contacts(&k);
