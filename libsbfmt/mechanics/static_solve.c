@@ -6,7 +6,7 @@
 #include "mechanics/network.h"
 #include "mechanics/network_matrix.h"
 
-enum { MAX_STEPS = 100, MIN_PRODUCTS = 200, MAX_BACKTRACKS = 40, SAID_EVERY = 32 };
+enum { MAX_STEPS = 100, MIN_PRODUCTS = 200, MAX_BACKTRACKS = 40, REPORT_INTERVAL = 32 };
 static const double TOLERANCE = 1e-8, SUFFICIENT_DECREASE = 1e-4;
 
 typedef struct statics {
@@ -149,7 +149,7 @@ static void find_direction(statics *s, double fraction) {
   double left = sbfi_dot(s->residual, s->z, size);
   double enough = fraction * fraction * sbfi_dot(s->residual, s->residual, size);
   for (size_t n = 0; n < MIN_PRODUCTS + size && left > 0; n++) {
-    if (s->products % SAID_EVERY == 0 && !continues(s)) return;
+    if (s->products % REPORT_INTERVAL == 0 && !continues(s)) return;
     sbfi_block_matrix_multiply(&s->derivatives.matrix, s->p, s->q);
     s->products++;
     double curvature = sbfi_dot(s->p, s->q, size);

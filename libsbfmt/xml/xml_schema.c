@@ -33,14 +33,14 @@ bool sbfi_xml_is_child(const sbfi_field *field, const char *name, int32_t *value
   return *value >= 0;
 }
 
-static bool is_said_by_name(const sbfi_field *holder, const sbfi_field *field) {
+static bool is_set_by_name(const sbfi_field *holder, const sbfi_field *field) {
   return holder && holder->by && strcmp(holder->by, field->name) == 0;
 }
 
 const sbfi_field *sbfi_xml_find_attribute(
     const sbfi_element *element, const sbfi_field *holder, const char *name) {
   const sbfi_field *field = sbfi_element_field(element, name);
-  return field && sbfi_field_is_attribute(field) && !is_said_by_name(holder, field) ? field : NULL;
+  return field && sbfi_field_is_attribute(field) && !is_set_by_name(holder, field) ? field : NULL;
 }
 
 static void consider_children(

@@ -55,7 +55,7 @@ START_TEST(a_tetrahedron_the_other_way_round_is_turned)
   sbfi_tet_mesh mesh;
   put("tet_f.node", two_nodes);
   ck_assert_int_eq(read_text("tet_f.ele", two_elements, &mesh, NULL), SBF_OK);
-  ck_assert_uint_eq(mesh.turned_count, 1);
+  ck_assert_uint_eq(mesh.inverted_count, 1);
   const uint32_t *p = ((const sbf_uint4 *)mesh.tetrahedra.at)[1].at;
   ck_assert_uint_eq(p[0], 1);
   ck_assert_uint_eq(p[2], 3);
@@ -217,7 +217,7 @@ START_TEST(real_files_have_their_counts)
     ck_assert_uint_eq(mesh.points.count, files[i].points);
     ck_assert_uint_eq(mesh.tetrahedra.count, files[i].tetrahedra);
     ck_assert_uint_eq(triangles.count, 3 * files[i].boundary);
-    ck_assert_uint_eq(mesh.turned_count + mesh.flat_count, 0);
+    ck_assert_uint_eq(mesh.inverted_count + mesh.flat_count, 0);
     sbfi_array_free(&triangles);
     sbfi_tet_mesh_free(&mesh);
   }

@@ -8,10 +8,10 @@ enum { BODY_BONE, LEFT, LEFT_SHIN, LEFT_FOOT, RIGHT };
 START_TEST(test_runs)
 {
   sbf_asset *asset = rules_load(LEGS, false);
-  ck_assert(sbfi_bone_hangs_on(asset, LEFT_FOOT, BODY_BONE));
-  ck_assert(sbfi_bone_hangs_on(asset, LEFT, LEFT));
-  ck_assert(!sbfi_bone_hangs_on(asset, RIGHT, LEFT));
-  ck_assert(!sbfi_bone_hangs_on(asset, BODY_BONE, LEFT));
+  ck_assert(sbfi_bone_is_descendant(asset, LEFT_FOOT, BODY_BONE));
+  ck_assert(sbfi_bone_is_descendant(asset, LEFT, LEFT));
+  ck_assert(!sbfi_bone_is_descendant(asset, RIGHT, LEFT));
+  ck_assert(!sbfi_bone_is_descendant(asset, BODY_BONE, LEFT));
   sbfi_bone_run run = sbfi_bone_run_of(asset, LEFT, LEFT_FOOT);
   ck_assert(run.whole);
   ck_assert_uint_eq(run.count, 3);

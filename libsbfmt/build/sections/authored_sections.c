@@ -47,7 +47,7 @@ static bool index_bodies(work *w, uint32_t body_count, sbfi_arena *scratch) {
   return true;
 }
 
-static bool lies_at_a_body(const work *w, uint32_t bone, sbf_vec3 vertex) {
+static bool is_at_body(const work *w, uint32_t bone, sbf_vec3 vertex) {
   for (uint32_t b = w->bone_bodies[bone]; b != SBFI_NO_INDEX; b = w->bodies[b].next) {
     double min = w->bodies[b].squared_reach;
     if (sbfi_triangle_tree_nearest(&w->bodies[b].surface, vertex, &min) != UINT32_MAX) return true;
@@ -71,7 +71,7 @@ static uint32_t count_covered(const work *w, const sbf_render_mesh *mesh, uint32
       if (skin->weights.at[i] > skin->weights.at[max]) max = i;
     if (!skin->influence_counts.at[v]) continue;
     if (*root == SBFI_NO_INDEX) *root = root_of(w->asset, skin->bones.at[max]);
-    covered += lies_at_a_body(w, skin->bones.at[max], mesh->mesh.positions.at[v]);
+    covered += is_at_body(w, skin->bones.at[max], mesh->mesh.positions.at[v]);
   }
   return covered;
 }

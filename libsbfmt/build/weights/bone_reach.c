@@ -86,7 +86,7 @@ static bool limit_beside(
   for (uint32_t i = 0; i < in->bone_count; i++) {
     int32_t parent = in->bones[i].parent;
     beside[i] = parent == SBF_NONE ? SBF_NONE : beside[parent];
-    if (sbfi_bone_is_beside(in, segments, i)) beside[i] = parent;
+    if (sbfi_bone_is_adjacent(in, segments, i)) beside[i] = parent;
     if (beside[i] != SBF_NONE) thickness[i] = fmin(thickness[i], thickness[beside[i]]);
   }
   return true;

@@ -68,7 +68,7 @@ static double free_length(const sbfi_weights_input *in, const sbfi_bone_segment 
   return length;
 }
 
-bool sbfi_bone_is_beside(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone) {
+bool sbfi_bone_is_adjacent(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone) {
   int32_t parent = in->bones[bone].parent;
   return parent != SBF_NONE && segments[bone].side && segments[bone].side == segments[parent].side &&
          segments[parent].is_deforming && segments[parent].next == SBF_NONE &&
@@ -79,7 +79,7 @@ bool sbfi_bone_is_beside(const sbfi_weights_input *in, const sbfi_bone_segment *
 static bool hangs_beside(
     const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone, uint32_t above) {
   for (int32_t b = (int32_t)bone; b != SBF_NONE; b = in->bones[b].parent)
-    if (in->bones[b].parent == (int32_t)above) return sbfi_bone_is_beside(in, segments, (uint32_t)b);
+    if (in->bones[b].parent == (int32_t)above) return sbfi_bone_is_adjacent(in, segments, (uint32_t)b);
   return false;
 }
 

@@ -18,7 +18,7 @@ bool sbfi_bone_segments_find(const sbfi_weights_input *in, const sbfi_weight_mes
 
 /* Whether a limb's bone begins at the head of its parent, which has no continuation, as fingers do at the
  * wrist in motion capture. It is beside its parent instead of continuing it. */
-bool sbfi_bone_is_beside(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone);
+bool sbfi_bone_is_adjacent(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone);
 
 /* Nearest point of a segment. */
 sbfi_d3 sbfi_segment_nearest(const sbfi_bone_segment *segment, sbfi_d3 point);

@@ -206,7 +206,7 @@ static void walk(document *d, const char *text, size_t size, bool instances) {
   }
 }
 
-static bool lies_below(const document *d, int node, int root) {
+static bool is_below(const document *d, int node, int root) {
   while (node != NONE && node != root) node = node_at(d, node)->parent;
   return node == root;
 }
@@ -214,7 +214,7 @@ static bool lies_below(const document *d, int node, int root) {
 /* Joint with that short id below a skeleton; NONE if there is none or it has no id. */
 static int joint_below(const document *d, span sid, int root) {
   for (int i = 0; i < d->nodes.count; i++)
-    if (same(node_at(d, i)->sid, sid) && node_at(d, i)->id.length && lies_below(d, i, root)) return i;
+    if (same(node_at(d, i)->sid, sid) && node_at(d, i)->id.length && is_below(d, i, root)) return i;
   return NONE;
 }
 

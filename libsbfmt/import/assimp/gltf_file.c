@@ -61,7 +61,7 @@ static bytes chunk(const bytes *file, size_t *offset, uint32_t type) {
   return (bytes){file->at + *offset - size, size};
 }
 
-static bytes buffer_beside(const gltf *g, const json_t *buffer) {
+static bytes sibling_buffer(const gltf *g, const json_t *buffer) {
   char path[PATH_SIZE];
   const char *uri = json_string_value(json_object_get(buffer, "uri")), *slash = strrchr(g->path, '/');
   if (!uri || strncmp(uri, "data:", 5) == 0) return (bytes){NULL, 0};
@@ -104,7 +104,7 @@ bool gltf_load_buffers(gltf *g) {
   for (; g->buffer_count < count; g->buffer_count++) {
     const json_t *buffer = json_array_get(buffers, g->buffer_count);
     bool inside = packed && g->buffer_count == 0 && !json_object_get(buffer, "uri");
-    g->buffers[g->buffer_count] = inside ? binary : buffer_beside(g, buffer);
+    g->buffers[g->buffer_count] = inside ? binary : sibling_buffer(g, buffer);
   }
   return true;
 }

@@ -75,17 +75,17 @@ static sbf_status find_holder(work *w, const char *name, int32_t *holder) {
   return status;
 }
 
-static sbf_status attach(work *w, const sbf_convert_attachment *wish) {
+static sbf_status attach(work *w, const sbf_convert_attachment *request) {
   sbfi_conversion *c = w->c;
-  int64_t number = body_named(w, wish->body);
+  int64_t number = body_named(w, request->body);
   int32_t holder;
   if (number < 0)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-        "cannot attach '%s' to '%s': no soft body has that name", wish->body, wish->holder);
-  if (strcmp(wish->body, wish->holder) == 0)
+        "cannot attach '%s' to '%s': no soft body has that name", request->body, request->holder);
+  if (strcmp(request->body, request->holder) == 0)
     return sbfi_diagnose(
-        c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "'%s' cannot be attached to itself", wish->body);
-  sbf_status status = find_holder(w, wish->holder, &holder);
+        c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "'%s' cannot be attached to itself", request->body);
+  sbf_status status = find_holder(w, request->holder, &holder);
   if (status != SBF_OK) return status;
   sbf_soft_body *body = &w->bodies[number];
   uint32_t count = body->attachments.count;

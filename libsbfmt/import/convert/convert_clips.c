@@ -13,10 +13,10 @@
 
 /* Tolerances for equality with the rest pose or the first key, to absorb rounding: fraction of the
  * skeleton's size, quaternion component, scale factor. */
-static const double SAME_POSITION = 1e-6, SAME_TURN = 5e-6, SAME_SCALE = 1e-4;
+static const double SAME_POSITION = 1e-6, SAME_ROTATION = 5e-6, SAME_SCALE = 1e-4;
 /* A clip loops if its last keys are this close to its first: rad, fraction of the size, multiple of the
  * largest step between keys. */
-static const double LOOP_TURN = 0.2, LOOP_DISTANCE = 0.05, LOOP_STEPS = 1.5;
+static const double LOOP_ROTATION = 0.2, LOOP_DISTANCE = 0.05, LOOP_STEPS = 1.5;
 
 typedef struct clip_work {
   sbfi_conversion *c;
@@ -224,7 +224,7 @@ static bool convert_bone(clip_work *w, uint32_t bone, sbf_track *tracks, uint32_
     good =
         add_track(w, bone, SBF_TRACK_PROPERTY_TRANSLATION, &t[SBFI_RAW_POSITION], rest.position,
             SAME_POSITION * w->size, tracks, count) &&
-        add_track(w, bone, SBF_TRACK_PROPERTY_ROTATION, &t[SBFI_RAW_ROTATION], rest.rotation, SAME_TURN,
+        add_track(w, bone, SBF_TRACK_PROPERTY_ROTATION, &t[SBFI_RAW_ROTATION], rest.rotation, SAME_ROTATION,
             tracks, count) &&
         add_track(w, bone, SBF_TRACK_PROPERTY_SCALE, &t[SBFI_RAW_SCALE], no_scale, SAME_SCALE, tracks, count);
   } else if (good) {
@@ -272,7 +272,7 @@ static bool is_loop(const clip_work *w, const sbf_track_list *tracks) {
     const sbf_track *track = &tracks->at[i];
     uint32_t last = track->times.count ? track->times.count - 1 : 0;
     if (last == 0 || track->property == SBF_TRACK_PROPERTY_SCALE) continue;
-    double max = track->property == SBF_TRACK_PROPERTY_ROTATION ? LOOP_TURN : LOOP_DISTANCE * w->size;
+    double max = track->property == SBF_TRACK_PROPERTY_ROTATION ? LOOP_ROTATION : LOOP_DISTANCE * w->size;
     for (uint32_t k = 0; k < last; k++) max = fmax(max, LOOP_STEPS * step_between(track, k, k + 1));
     if (step_between(track, last, 0) > max) return false;
   }

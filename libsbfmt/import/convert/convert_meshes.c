@@ -18,8 +18,8 @@ typedef struct geometry {
   sbf_polygon_mesh mesh;
   uint32_t *corner_order; /* (corner_count) scene corner of each corner; differs if polygons were flipped */
   sbfi_matrix to_asset;
-  bool turned;  /* its polygons were flipped because it was inside out */
-  bool is_flat; /* none of its polygons has an area */
+  bool is_reversed; /* its polygons were flipped because it was inside out */
+  bool is_flat;     /* none of its polygons has an area */
 } geometry;
 
 /* Rest positions of a skinned mesh: the sum of weight * joint * bind, as at run time. A point without weights
@@ -72,13 +72,13 @@ static sbf_status find_inside_out(sbfi_conversion *c, const sbf_polygon_mesh *me
   return SBF_OK;
 }
 
-static void write_polygons(
-    const sbfi_scene_mesh *mesh, bool turned, uint32_t *sizes, uint32_t *points, uint32_t *corner_order) {
+static void write_polygons(const sbfi_scene_mesh *mesh, bool is_reversed, uint32_t *sizes, uint32_t *points,
+    uint32_t *corner_order) {
   for (uint32_t p = 0; p < mesh->polygon_count; p++) {
     uint32_t start = mesh->polygon_starts[p], size = mesh->polygon_starts[p + 1] - start;
     sizes[p] = size;
     for (uint32_t k = 0; k < size; k++) {
-      uint32_t from = start + (turned ? (size - k) % size : k);
+      uint32_t from = start + (is_reversed ? (size - k) % size : k);
       corner_order[start + k] = from;
       points[start + k] = mesh->corner_points[from];
     }
@@ -115,9 +115,9 @@ static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *me
   g->mesh.positions = (sbf_vec3_list){positions, mesh->point_count};
   g->mesh.polygon_sizes = (sbf_u32_list){sizes, mesh->polygon_count};
   g->mesh.polygon_points = (sbf_u32_list){points, mesh->corner_count};
-  if (status == SBF_OK) status = find_inside_out(c, &g->mesh, &g->turned);
+  if (status == SBF_OK) status = find_inside_out(c, &g->mesh, &g->is_reversed);
   g->is_flat = has_no_area(&g->mesh);
-  if (status != SBF_OK || !g->turned) return status;
+  if (status != SBF_OK || !g->is_reversed) return status;
   write_polygons(mesh, !mirrored, sizes, points, g->corner_order);
   sbfi_convert_warn(c, SBF_CODE_IMPORT_INSIDE_OUT,
       "all polygons of object '%s' faced inwards and were reversed", c->scene->nodes[mesh->node].name);
@@ -179,7 +179,7 @@ static sbf_status convert_normals(
   if (!reorder_corners(mesh->corner_normals, g->corner_order, mesh->corner_count, corners)) return SBF_OK;
   for (uint32_t i = 0; i < mesh->normal_count; i++)
     normals[i] = transform_normal(&g->to_asset, mesh->normals[i]);
-  if (g->turned && point_backwards(&g->mesh, normals, corners))
+  if (g->is_reversed && point_backwards(&g->mesh, normals, corners))
     for (uint32_t i = 0; i < mesh->normal_count; i++)
       normals[i] = (sbf_vec3){-normals[i].x, -normals[i].y, -normals[i].z};
   render->normals = (sbf_vec3_list){normals, mesh->normal_count};
@@ -344,7 +344,7 @@ static sbf_status fill_render_mesh(
   if (status == SBF_OK) status = convert_slots(c, mesh, render);
   if (status == SBF_OK && mesh->joint_count) status = convert_skin(c, mesh, render);
   if (status == SBF_OK) status = convert_shapes(c, mesh, g, render);
-  if (status == SBF_OK && mesh->joint_count && !sbfi_hold_skin(c, mesh, render))
+  if (status == SBF_OK && mesh->joint_count && !sbfi_pin_skin(c, mesh, render))
     return sbfi_convert_no_memory(c);
   return status;
 }

@@ -116,7 +116,7 @@ bool sbfi_pin_body(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_soft_bod
   return true;
 }
 
-bool sbfi_hold_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *skin) {
+bool sbfi_pin_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *skin) {
   const sbf_convert_options *o = c->options;
   if (o->hold_count == 0) return true;
   sbf_pin_set *sets = sbfi_convert_allocate(c, o->hold_count, sizeof *sets);

@@ -16,7 +16,7 @@ bool sbfi_mesh_is_pinned(const sbfi_conversion *c, const sbfi_scene_mesh *mesh);
 bool sbfi_pin_body(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_soft_body *body);
 
 /* Adds pin sets to a skin, one for each hold that names a group of the mesh. False if memory runs out. */
-bool sbfi_hold_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *skin);
+bool sbfi_pin_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *skin);
 
 /* Stored weight of a goal of `weight` in 0..1; see sbf_convert_options. */
 static inline float sbfi_goal_weight(double weight) {

@@ -61,16 +61,16 @@ static bool order_bones(sbfi_conversion *c, const sbfi_skeleton_draft *s, uint32
 static bool write_bone(sbfi_conversion *c, const sbfi_skeleton_draft *s, const sbfi_bone_draft *from,
     const int32_t *new_from_old, sbf_bone *bone) {
   sbf_bone_init(bone);
-  sbfi_bone_draft turned = *from;
-  turned.y = direction_of(s, from);
+  sbfi_bone_draft rotated = *from;
+  rotated.y = direction_of(s, from);
   bone->id = sbfi_new_id(c, "bone", c->rig->nodes[from->node].name);
   bone->name = sbf_asset_copy_text(c->asset, c->rig->nodes[from->node].name);
   bone->parent = from->parent == SBF_NONE ? SBF_NONE : new_from_old[from->parent];
   bone->head = sbfi_d3_rounded(from->head);
-  bone->rotation = rotation_from_axes(from->x, turned.y);
-  if (from->next == SBF_NONE) turned.along = from->tip;
-  bool has_end = sbfi_d3_length(turned.along) > 1e-9;
-  bone->length = has_end && sbfi_bone_runs_straight(&turned) ? (float)sbfi_d3_length(turned.along) : 0;
+  bone->rotation = rotation_from_axes(from->x, rotated.y);
+  if (from->next == SBF_NONE) rotated.along = from->tip;
+  bool has_end = sbfi_d3_length(rotated.along) > 1e-9;
+  bone->length = has_end && sbfi_bone_runs_straight(&rotated) ? (float)sbfi_d3_length(rotated.along) : 0;
   return bone->id && bone->name;
 }
 
@@ -116,7 +116,7 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c) {
     c->bone_of_node[i] = (int32_t)s.count++;
   }
   sbfi_draft_continue(&s);
-  sbf_status status = sbfi_hang_detached(c, &s);
+  sbf_status status = sbfi_reparent_detached_bones(c, &s);
   return status == SBF_OK ? write_bones(c, &s) : status;
 }
 

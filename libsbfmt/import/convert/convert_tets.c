@@ -62,9 +62,9 @@ static sbf_status fill_level(sbfi_conversion *c, const sbfi_tet_mesh *mesh, cons
 }
 
 static void report_repairs(sbfi_conversion *c, const sbfi_tet_mesh *mesh) {
-  if (mesh->turned_count)
+  if (mesh->inverted_count)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_TETRAHEDRA_TURNED,
-        "%u tetrahedra were inverted: their points were reordered", mesh->turned_count);
+        "%u tetrahedra were inverted: their points were reordered", mesh->inverted_count);
   if (mesh->flat_count)
     sbfi_convert_warn(
         c, SBF_CODE_IMPORT_TETRAHEDRA_FLAT, "%u tetrahedra without volume were left out", mesh->flat_count);

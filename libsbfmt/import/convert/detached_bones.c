@@ -27,7 +27,7 @@ static bool is_tip(const sbfi_skeleton_draft *s, uint32_t bone) {
   return b->next == SBF_NONE && b->points && b->parent != SBF_NONE && s->bones[b->parent].parent != SBF_NONE;
 }
 
-static bool hangs_below(const sbfi_skeleton_draft *s, int32_t bone, int32_t above) {
+static bool is_descendant(const sbfi_skeleton_draft *s, int32_t bone, int32_t above) {
   while (bone != above && bone != SBF_NONE) bone = s->bones[bone].parent;
   return bone == above;
 }
@@ -37,7 +37,7 @@ static int32_t find_limb(const sbfi_skeleton_draft *s, uint32_t bone) {
   int32_t best = SBF_NONE;
   double nearest = 0;
   for (uint32_t i = 0; i < s->count; i++) {
-    if (!is_tip(s, i) || hangs_below(s, (int32_t)i, (int32_t)bone)) continue;
+    if (!is_tip(s, i) || is_descendant(s, (int32_t)i, (int32_t)bone)) continue;
     const sbfi_bone_draft *tip = &s->bones[i];
     sbfi_d3 displacement = sbfi_d3_sub(s->bones[bone].head, tip->head);
     double length = sbfi_d3_length(displacement);
@@ -61,7 +61,7 @@ static bool is_end(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t
 static uint32_t count_below(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
   uint32_t count = s->bones[bone].below;
   for (uint32_t i = 0; i < s->count; i++)
-    count -= i != bone && hangs_below(s, (int32_t)i, (int32_t)bone) && is_end(s, rig, i);
+    count -= i != bone && is_descendant(s, (int32_t)i, (int32_t)bone) && is_end(s, rig, i);
   return count;
 }
 
@@ -86,8 +86,8 @@ static bool ends_limb(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint3
  * downwards to it. */
 static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t loose) {
   const sbfi_bone_draft *last = &s->bones[tip];
-  int32_t carrier = s->bones[loose].parent, limb = s->bones[last->parent].parent;
-  if (carrier == limb || (carrier != SBF_NONE && !hangs_below(s, limb, carrier))) return INFINITY;
+  int32_t old_parent = s->bones[loose].parent, limb = s->bones[last->parent].parent;
+  if (old_parent == limb || (old_parent != SBF_NONE && !is_descendant(s, limb, old_parent))) return INFINITY;
   sbfi_d3 displacement = sbfi_d3_sub(s->bones[loose].head, last->head);
   sbfi_d3 before = sbfi_d3_sub(last->head, s->bones[last->parent].head);
   sbfi_d3 direction = sbfi_d3_normal(displacement);
@@ -122,7 +122,7 @@ static void find_neighbors_without_skin(sbfi_skeleton_draft *s, const sbfi_scene
 
 /* --- All of them --------------------------------------------------------------------------------------- */
 
-bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
+bool sbfi_reparent_to_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
   bool moved = false;
   /* Finds all limbs before moving any bone, so that the result does not depend on the order. If bones do
    * not run along +Y, the last bone of a limb has no known direction. */
@@ -131,7 +131,7 @@ bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
     if (limbs[i] == SBF_NONE && s->along_y && is_detached(s, i)) limbs[i] = find_limb(s, i);
   }
   for (uint32_t i = 0; i < s->count; i++) {
-    if (limbs[i] != SBF_NONE && hangs_below(s, limbs[i], (int32_t)i)) limbs[i] = SBF_NONE;
+    if (limbs[i] != SBF_NONE && is_descendant(s, limbs[i], (int32_t)i)) limbs[i] = SBF_NONE;
     if (limbs[i] == SBF_NONE) continue;
     s->bones[i].parent = limbs[i];
     moved = true;
@@ -139,12 +139,12 @@ bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
   return moved;
 }
 
-sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s) {
+sbf_status sbfi_reparent_detached_bones(sbfi_conversion *c, sbfi_skeleton_draft *s) {
   if (!sbfi_find_neighbors(c, s)) return sbfi_convert_no_memory(c);
   int32_t *limbs = sbfi_arena_allocate(&c->scratch, s->count, sizeof *limbs);
   if (!limbs) return sbfi_convert_no_memory(c);
   if (c->rig->mesh_count == 0) find_neighbors_without_skin(s, c->rig, limbs);
-  if (!sbfi_hang_on_limbs(s, limbs)) return SBF_OK;
+  if (!sbfi_reparent_to_limbs(s, limbs)) return SBF_OK;
   for (uint32_t i = 0; i < s->count; i++) {
     if (limbs[i] == SBF_NONE) continue;
     sbfi_convert_warn(c, SBF_CODE_RIG_BONE_REHUNG,

@@ -63,7 +63,7 @@ typedef struct part {
   double hard_area;       /* m^2 */
   double lowest;          /* y of its lowest vertex, m */
   bool twin;              /* measured with its mirror image */
-  bool asked;             /* the caller's options name it */
+  bool is_requested;      /* the caller's options name it */
   reason why;
 } part;
 
@@ -297,7 +297,7 @@ static sbf_status apply_requests(work *w, const char *const *names, uint32_t cou
       uint32_t owner = w->skin.owners[b];
       if (owner == SBFI_NO_INDEX) continue;
       w->parts[owner].why = why;
-      w->parts[owner].asked = true;
+      w->parts[owner].is_requested = true;
     }
     for (uint32_t b = 0; b < w->asset->soft_bodies.count; b++)
       found += strcmp(w->asset->soft_bodies.at[b].name, names[i]) == 0;
@@ -334,7 +334,7 @@ static bool write_recipes(const work *w) {
     sbf_section_recipe *recipe = &recipes[count++];
     sbf_section_recipe_init(recipe);
     recipe->bone = (int32_t)b;
-    recipe->proposed = !w->parts[b].asked;
+    recipe->proposed = !w->parts[b].is_requested;
     recipe->rigid = w->parts[b].why != SOFT;
     recipe->attributes.young_modulus = (float)w->modulus;
     recipe->attributes.sag_free = true;

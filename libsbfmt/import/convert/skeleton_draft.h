@@ -35,13 +35,13 @@ void sbfi_draft_continue(sbfi_skeleton_draft *s);
 /* Control bones such as feet and hands with inverse kinematics often hang on the root but have the skin
  * weights of the limb's end. Without the control rig only their parents move them. This reattaches such a
  * bone to the end of its limb and reports it. Afterwards parents may come after their children. */
-sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s);
+sbf_status sbfi_reparent_detached_bones(sbfi_conversion *c, sbfi_skeleton_draft *s);
 
 /* Computes `neighbor` and `points` of every bone from the rig's skins; false if memory runs out. */
 bool sbfi_find_neighbors(sbfi_conversion *c, sbfi_skeleton_draft *s);
 
 /* The same for a draft with counted points. `limbs` (s->count) receives the new parent of each bone,
  * SBF_NONE if it stays. Returns whether any bone was reattached. */
-bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs);
+bool sbfi_reparent_to_limbs(sbfi_skeleton_draft *s, int32_t *limbs);
 
 #endif

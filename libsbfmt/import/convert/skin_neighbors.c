@@ -57,16 +57,16 @@ static bool gather(const sbfi_conversion *c, sbfi_skeleton_draft *s, sbfi_arena 
   return true;
 }
 
-static bool hangs_below(const sbfi_skeleton_draft *s, int32_t bone, int32_t above) {
+static bool is_descendant(const sbfi_skeleton_draft *s, int32_t bone, int32_t above) {
   while (bone != above && bone != SBF_NONE) bone = s->bones[bone].parent;
   return bone == above;
 }
 
 /* Number of bones with skin in the subtree of a bone. */
-static uint32_t count_holding(const sbfi_skeleton_draft *s, uint32_t bone) {
+static uint32_t count_weighted_bones(const sbfi_skeleton_draft *s, uint32_t bone) {
   uint32_t holding = 0;
   for (uint32_t i = 0; i < s->count; i++)
-    holding += s->bones[i].points && hangs_below(s, (int32_t)i, (int32_t)bone);
+    holding += s->bones[i].points && is_descendant(s, (int32_t)i, (int32_t)bone);
   return holding;
 }
 
@@ -84,11 +84,11 @@ static bool is_loose(const sbfi_skeleton_draft *s, uint32_t bone) {
 static bool is_last(const sbfi_skeleton_draft *s, int32_t bone) {
   int32_t parent = s->bones[bone].parent;
   if (!s->bones[bone].points || parent == SBF_NONE || s->bones[parent].parent == SBF_NONE) return false;
-  return count_holding(s, (uint32_t)bone) == 1 && s->bones[parent].points;
+  return count_weighted_bones(s, (uint32_t)bone) == 1 && s->bones[parent].points;
 }
 
 static bool is_candidate(const sbfi_skeleton_draft *s, int32_t bone, uint32_t detached) {
-  return bone != SBF_NONE && s->bones[bone].points && !hangs_below(s, bone, (int32_t)detached);
+  return bone != SBF_NONE && s->bones[bone].points && !is_descendant(s, bone, (int32_t)detached);
 }
 
 /* Counts edges between the skin of `bone` with its descendants and that of each other bone. */
@@ -104,8 +104,8 @@ static uint32_t count_border(
         int32_t a = main_bone(c, mesh, mesh->corner_points[k]);
         int32_t b = main_bone(c, mesh, mesh->corner_points[k + 1 < end ? k + 1 : begin]);
         if (a == SBF_NONE || b == SBF_NONE || a == b) continue;
-        bool inside = hangs_below(s, a, (int32_t)bone);
-        if (inside == hangs_below(s, b, (int32_t)bone)) continue;
+        bool inside = is_descendant(s, a, (int32_t)bone);
+        if (inside == is_descendant(s, b, (int32_t)bone)) continue;
         border[inside ? b : a]++;
         total++;
       }
@@ -119,11 +119,11 @@ static int32_t nearest_bone(
     const sbfi_skeleton_draft *s, const skin_points *all, uint32_t bone, double *distance) {
   int32_t best = SBF_NONE;
   double nearest = INFINITY;
-  uint32_t own = 0, asked = 0;
-  for (uint32_t i = 0; i < all->count; i++) own += hangs_below(s, all->bone[i], (int32_t)bone);
+  uint32_t own = 0, sampled = 0;
+  for (uint32_t i = 0; i < all->count; i++) own += is_descendant(s, all->bone[i], (int32_t)bone);
   uint32_t step = own / STEPS + 1;
   for (uint32_t i = 0; i < all->count; i++) {
-    if (!hangs_below(s, all->bone[i], (int32_t)bone) || asked++ % step) continue;
+    if (!is_descendant(s, all->bone[i], (int32_t)bone) || sampled++ % step) continue;
     for (uint32_t k = 0; k < all->count; k++) {
       sbfi_d3 displacement = sbfi_d3_sub(all->at[k], all->at[i]);
       double squared = sbfi_d3_dot(displacement, displacement);
@@ -151,7 +151,7 @@ static int32_t find_neighbor(const sbfi_conversion *c, const sbfi_skeleton_draft
   int32_t nearest = nearest_bone(s, all, bone, &distance);
   if (nearest == SBF_NONE) return SBF_NONE;
   if (is_last(s, nearest)) return distance < NEAR_LIMB * all->size ? nearest : SBF_NONE;
-  bool prop = s->bones[nearest].parent != SBF_NONE && count_holding(s, bone) == 1 &&
+  bool prop = s->bones[nearest].parent != SBF_NONE && count_weighted_bones(s, bone) == 1 &&
               s->bones[s->bones[nearest].parent].points;
   return prop && distance < NEAR_ANY * all->size ? nearest : SBF_NONE;
 }
@@ -181,7 +181,7 @@ bool sbfi_find_neighbors(sbfi_conversion *c, sbfi_skeleton_draft *s) {
   if (all.count == 0) return true;
   for (uint32_t i = 0; i < s->count; i++) {
     if (!is_loose(s, i)) continue;
-    uint32_t holding = count_holding(s, i);
+    uint32_t holding = count_weighted_bones(s, i);
     if (holding == 0 && s->bones[i].below == 0)
       s->bones[i].neighbor = find_target_limb(s, &all, i);
     else if (holding && s->bones[i].points && holding <= MAX_PINNED)

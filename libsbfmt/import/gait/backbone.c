@@ -20,7 +20,7 @@ static void find_candidates(const sbfi_rig_view *view, bool askew, bool *candida
     bool in_pair = d->shapes[i].side != 0 && !askew;
     for (uint32_t l = 0; l < view->limb_count && askew && !in_pair; l++)
       in_pair = view->limbs[l].twin != SBF_NONE && sbfi_draft_is_below(d, (int32_t)i, view->limbs[l].root);
-    candidates[i] = d->shapes[i].bears && !in_pair && !is_named_mouth(view, i);
+    candidates[i] = d->shapes[i].moves_points && !in_pair && !is_named_mouth(view, i);
   }
 }
 

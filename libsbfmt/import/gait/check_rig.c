@@ -9,7 +9,7 @@
 
 /* --- Several characters -------------------------------------------------------------------------------- */
 
-enum { MIN_HOLDING = 5 };                 /* bones with points; props and helpers have fewer */
+enum { MIN_DEFORMING = 5 };               /* bones with points; props and helpers have fewer */
 static const double OTHER_FRACTION = 0.5; /* of the bones with points of the character that moves */
 
 sbf_status sbfi_report_other_skeletons(sbfi_conversion *c) {
@@ -17,21 +17,22 @@ sbf_status sbfi_report_other_skeletons(sbfi_conversion *c) {
   sbfi_rig_view view;
   if (c->asset->gaits.count != 1 || !c->asset->gaits.at[0].proposed) return SBF_OK;
   uint32_t *root_of = sbfi_arena_allocate(&c->scratch, bones->count, sizeof *root_of);
-  uint32_t *holding = sbfi_arena_allocate(&c->scratch, bones->count, sizeof *holding);
-  if (!root_of || !holding || !sbfi_view_rig(&view, c->asset, 0, &c->scratch))
+  uint32_t *deforming_bones = sbfi_arena_allocate(&c->scratch, bones->count, sizeof *deforming_bones);
+  if (!root_of || !deforming_bones || !sbfi_view_rig(&view, c->asset, 0, &c->scratch))
     return sbfi_convert_no_memory(c);
   for (uint32_t i = 0; i < bones->count; i++) {
     int32_t parent = bones->at[i].parent;
     root_of[i] = parent == SBF_NONE ? i : root_of[parent];
-    holding[root_of[i]] += view.holds[i] > 0;
+    deforming_bones[root_of[i]] += view.holds[i] > 0;
   }
   uint32_t moved = root_of[c->asset->gaits.at[0].body];
   for (uint32_t i = 0; i < bones->count; i++)
-    if (i != moved && holding[i] >= MIN_HOLDING && holding[i] >= OTHER_FRACTION * holding[moved])
+    if (i != moved && deforming_bones[i] >= MIN_DEFORMING &&
+        deforming_bones[i] >= OTHER_FRACTION * deforming_bones[moved])
       sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_SKELETON,
           "the gait moves only the skeleton of '%s', and the skeleton of '%s' with %u bones stands still: if "
           "it is another character, export each to its own file",
-          bones->at[moved].name, bones->at[i].name, holding[i]);
+          bones->at[moved].name, bones->at[i].name, deforming_bones[i]);
   return SBF_OK;
 }
 

@@ -27,7 +27,7 @@ static bool find_hangings(const sbfi_gait_draft *d, sbfi_arena *scratch, int32_t
   }
   sbfi_draft_continue(&s);
   s.along_y = true; /* true for all bones of an asset */
-  sbfi_hang_on_limbs(&s, hangs_on);
+  sbfi_reparent_to_limbs(&s, hangs_on);
   return true;
 }
 

@@ -25,14 +25,14 @@ static bool is_leg_bone(const sbfi_gait_draft *d, int32_t bone) {
 }
 
 /* Whether the bone or a descendant carries legs. */
-static bool bears_legs(const sbfi_gait_draft *d, int32_t bone) {
+static bool has_legs(const sbfi_gait_draft *d, int32_t bone) {
   for (uint32_t l = 0; l < d->leg_count; l++)
     if (sbfi_draft_is_below(d, d->legs[l].limb, bone)) return true;
   return false;
 }
 
 static bool is_middle(const sbfi_gait_draft *d, int32_t bone) {
-  return d->shapes[bone].bears && d->shapes[bone].side == 0 && !is_leg_bone(d, bone);
+  return d->shapes[bone].moves_points && d->shapes[bone].side == 0 && !is_leg_bone(d, bone);
 }
 
 /* Whether the bone or an ancestor is named a tail. */
@@ -47,7 +47,7 @@ int32_t sbfi_draft_named_head(const sbfi_gait_draft *d) {
     for (uint32_t i = 0; i < d->asset->bones.count; i++) {
       int32_t bone = (int32_t)i;
       bool holds = pass || !d->has_mesh || d->shapes[i].points;
-      if (holds && is_middle(d, bone) && !bears_legs(d, bone) &&
+      if (holds && is_middle(d, bone) && !has_legs(d, bone) &&
           contains_word(sbfi_draft_bone(d, bone)->name, "head"))
         return bone;
     }
@@ -75,7 +75,7 @@ static int32_t head_by_shape(const sbfi_gait_draft *d) {
   }
   int32_t parent = head != SBF_NONE ? sbfi_draft_bone(d, head)->parent : SBF_NONE;
   bool shared = parent != SBF_NONE && d->shapes[parent].children > 1 && is_middle(d, parent);
-  return shared && !bears_legs(d, parent) && parent != d->hips && parent != d->chest ? parent : head;
+  return shared && !has_legs(d, parent) && parent != d->hips && parent != d->chest ? parent : head;
 }
 
 /* Lists bones from `first` on while each has one child. Returns their number. */
@@ -105,7 +105,7 @@ static bool find_tail(sbfi_gait_draft *d) {
   for (int by_shape = 0; by_shape < 2; by_shape++)
     for (uint32_t i = 0; i < count; i++) {
       int32_t bone = (int32_t)i;
-      if (!is_middle(d, bone) || bears_legs(d, bone)) continue;
+      if (!is_middle(d, bone) || has_legs(d, bone)) continue;
       if (d->head != SBF_NONE &&
           (sbfi_draft_is_below(d, bone, d->head) || sbfi_draft_is_below(d, d->head, bone)))
         continue;

@@ -12,22 +12,22 @@ static const double SIDEWAYS_MARGIN = 0.25; /* minimum advantage for a sideways 
 enum { QUADRUPED_LEGS = 4 };
 
 /* Above 0 if the legs named left are on the left; below 0 if they are on the right. */
-static int ask_names(const sbfi_gait_draft *d) {
+static int facing_of_names(const sbfi_gait_draft *d) {
   int votes = 0;
   for (uint32_t l = 0; l < d->leg_count; l++)
-    votes += d->legs[l].side * sbfi_name_side(sbfi_draft_bone(d, sbfi_draft_stands(&d->legs[l]))->name);
+    votes += d->legs[l].side * sbfi_name_side(sbfi_draft_bone(d, sbfi_draft_is_standing(&d->legs[l]))->name);
   return votes;
 }
 
 /* Rates a division into left and right: for each leg 0 to 1 by how close it is to its twin's mirror image,
  * plus the evidence of names. */
 static double rate_sides(const sbfi_gait_draft *d) {
-  double sum = abs(ask_names(d));
+  double sum = abs(facing_of_names(d));
   for (uint32_t l = 0; l < d->leg_count; l++) {
-    sbf_vec3 here = sbfi_draft_head(d, sbfi_draft_stands(&d->legs[l]));
+    sbf_vec3 here = sbfi_draft_head(d, sbfi_draft_is_standing(&d->legs[l]));
     double nearest = PAIR_FRACTION * d->height;
     for (uint32_t k = 0; k < d->leg_count; k++) {
-      sbf_vec3 there = sbfi_draft_head(d, sbfi_draft_stands(&d->legs[k]));
+      sbf_vec3 there = sbfi_draft_head(d, sbfi_draft_is_standing(&d->legs[k]));
       double x = (double)here.x + (double)there.x, y = (double)here.y - (double)there.y;
       double z = (double)here.z - (double)there.z;
       if (d->legs[k].side != d->legs[l].side) nearest = fmin(nearest, sqrt(x * x + y * y + z * z));
@@ -38,10 +38,10 @@ static double rate_sides(const sbfi_gait_draft *d) {
 }
 
 /* Above 0 if the feet reach farther to the front of their joints than to the back. */
-static double ask_feet(const sbfi_gait_draft *d) {
+static double facing_of_feet(const sbfi_gait_draft *d) {
   double ahead = 0;
   for (uint32_t l = 0; l < d->leg_count; l++) {
-    int32_t foot = sbfi_draft_stands(&d->legs[l]);
+    int32_t foot = sbfi_draft_is_standing(&d->legs[l]);
     double ankle = (double)sbfi_draft_head(d, foot).z;
     for (uint32_t i = (uint32_t)foot; i < d->asset->bones.count; i++) {
       if (!sbfi_draft_is_below(d, (int32_t)i, foot)) continue;
@@ -60,7 +60,7 @@ static bool is_head_behind_feet(const sbfi_gait_draft *d) {
   int32_t head = d->leg_count >= QUADRUPED_LEGS ? sbfi_draft_named_head(d) : SBF_NONE;
   if (head == SBF_NONE) return false;
   for (uint32_t l = 0; l < d->leg_count; l++)
-    if (sbfi_draft_head(d, head).z >= sbfi_draft_head(d, sbfi_draft_stands(&d->legs[l])).z) return false;
+    if (sbfi_draft_head(d, head).z >= sbfi_draft_head(d, sbfi_draft_is_standing(&d->legs[l])).z) return false;
   return true;
 }
 
@@ -73,8 +73,8 @@ bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *tu
     rates[t] = rate_sides(&seen[t]);
   }
   uint32_t side = rates[1] > rates[0] + SIDEWAYS_MARGIN;
-  int names = ask_names(&seen[side]);
-  double feet = ask_feet(&seen[side]);
+  int names = facing_of_names(&seen[side]);
+  double feet = facing_of_feet(&seen[side]);
   bool backwards =
       side ? names < 0 || (names == 0 && feet < 0) : names < 0 && (feet < 0 || is_head_behind_feet(&seen[0]));
   *turns = side + 2 * backwards;

@@ -29,7 +29,7 @@ static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
   int32_t best = SBF_NONE;
   for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++) {
     const sbfi_bone_shape *shape = &d->shapes[i];
-    if (sbfi_draft_bone(d, (int32_t)i)->parent != bone || !shape->bears) continue;
+    if (sbfi_draft_bone(d, (int32_t)i)->parent != bone || !shape->moves_points) continue;
     if (best == SBF_NONE || shape->low_below < d->shapes[best].low_below) best = (int32_t)i;
   }
   return best;
@@ -41,7 +41,7 @@ static int32_t ankle_mark(const sbfi_gait_draft *d, int32_t bone) {
   int32_t best = SBF_NONE;
   for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++) {
     const sbf_bone *child = sbfi_draft_bone(d, (int32_t)i);
-    if (child->parent != bone || d->shapes[i].bears || (double)child->head.y >= lowest) continue;
+    if (child->parent != bone || d->shapes[i].moves_points || (double)child->head.y >= lowest) continue;
     lowest = (double)child->head.y;
     best = (int32_t)i;
   }
@@ -125,7 +125,7 @@ static void find_girdles(sbfi_gait_draft *d) {
 static uint32_t count_bearing(const sbfi_gait_draft *d, int32_t bone) {
   uint32_t count = 0;
   for (uint32_t i = (uint32_t)bone; i < d->asset->bones.count; i++)
-    count += d->shapes[i].bears && sbfi_draft_is_below(d, (int32_t)i, bone);
+    count += d->shapes[i].moves_points && sbfi_draft_is_below(d, (int32_t)i, bone);
   return count;
 }
 

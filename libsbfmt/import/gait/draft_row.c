@@ -4,7 +4,7 @@
 
 enum { MIN_GIRDLES = 4 };
 
-static bool bears_a_leg(const sbfi_gait_draft *d, int32_t bone) {
+static bool has_leg(const sbfi_gait_draft *d, int32_t bone) {
   for (uint32_t l = 0; l < d->leg_count; l++)
     if (sbfi_draft_bone(d, d->legs[l].limb)->parent == bone) return true;
   return false;
@@ -21,10 +21,10 @@ static uint32_t depth_of(const sbfi_gait_draft *d, int32_t bone) {
  * off the chain or the chain does not lead back. */
 static uint32_t list_row(sbfi_gait_draft *d, int32_t last) {
   uint32_t girdles = 0, all = 0, depth = depth_of(d, last), first = depth;
-  for (uint32_t i = 0; i < d->asset->bones.count; i++) all += bears_a_leg(d, (int32_t)i);
+  for (uint32_t i = 0; i < d->asset->bones.count; i++) all += has_leg(d, (int32_t)i);
   for (int32_t bone = last; bone != SBF_NONE; bone = sbfi_draft_bone(d, bone)->parent, depth--) {
     d->spine[depth - 1] = (uint32_t)bone;
-    if (!bears_a_leg(d, bone)) continue;
+    if (!has_leg(d, bone)) continue;
     girdles++;
     first = depth;
   }
@@ -45,7 +45,7 @@ bool sbfi_draft_row(sbfi_gait_draft *d) {
   d->spine = sbf_asset_allocate(d->asset, d->asset->bones.count, sizeof *d->spine);
   if (!d->spine) return false;
   for (uint32_t i = 0; i < d->asset->bones.count; i++)
-    if (bears_a_leg(d, (int32_t)i) && (last == SBF_NONE || depth_of(d, (int32_t)i) > depth_of(d, last)))
+    if (has_leg(d, (int32_t)i) && (last == SBF_NONE || depth_of(d, (int32_t)i) > depth_of(d, last)))
       last = (int32_t)i;
   d->spine_count = last == SBF_NONE ? 0 : list_row(d, last);
   d->row = d->spine_count > 0;

@@ -23,7 +23,7 @@ bool sbfi_draft_is_below(const sbfi_gait_draft *d, int32_t bone, int32_t ancesto
 int32_t sbfi_draft_only_child(const sbfi_gait_draft *d, int32_t bone) {
   if (d->shapes[bone].children != 1) return SBF_NONE;
   for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++)
-    if (sbfi_draft_bone(d, (int32_t)i)->parent == bone && d->shapes[i].bears) return (int32_t)i;
+    if (sbfi_draft_bone(d, (int32_t)i)->parent == bone && d->shapes[i].moves_points) return (int32_t)i;
   return SBF_NONE;
 }
 
@@ -107,22 +107,22 @@ static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
     sbfi_bone_shape *shape = &d->shapes[i];
     const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
     if (!d->has_mesh) {
-      shape->bears |= !sbfi_name_is_end(bone->name, strlen(bone->name));
+      shape->moves_points |= !sbfi_name_is_end(bone->name, strlen(bone->name));
       shape->low = (double)bone->head.y; /* tips mark the end of the bones above them */
     }
-    shape->bears |= shape->points > 0;
+    shape->moves_points |= shape->points > 0;
     shape->low_below = fmin(shape->low_below, shape->low);
     if (shape->points) widen(shape, e->sum_x[i] / shape->points, e->sum_x[i] / shape->points);
     double head_x = (double)sbfi_draft_head(d, (int32_t)i).x;
-    if (shape->bears) widen(shape, head_x, head_x);
-    shape->side = shape->bears && shape->min_x > -margin && shape->max_x > margin   ? 1
-                  : shape->bears && shape->max_x < margin && shape->min_x < -margin ? -1
-                                                                                    : 0;
+    if (shape->moves_points) widen(shape, head_x, head_x);
+    shape->side = shape->moves_points && shape->min_x > -margin && shape->max_x > margin   ? 1
+                  : shape->moves_points && shape->max_x < margin && shape->min_x < -margin ? -1
+                                                                                           : 0;
     if (bone->parent == SBF_NONE) continue;
     sbfi_bone_shape *parent = &d->shapes[bone->parent];
     parent->low_below = fmin(parent->low_below, shape->low_below);
-    if (!shape->bears) continue;
-    parent->bears = true;
+    if (!shape->moves_points) continue;
+    parent->moves_points = true;
     parent->children++;
     parent->middle_children += shape->side == 0;
     widen(parent, shape->min_x, shape->max_x);

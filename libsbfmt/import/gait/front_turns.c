@@ -11,7 +11,7 @@ static const double TAIL_END = 0.25, NARROW = 0.7;
 
 /* Above 0 if bones named left are on the left and heads in front of tails, seen after `turns` quarter
  * turns. */
-static double ask_names(const sbf_asset *asset, uint32_t turns, sbf_vec3 center, double length) {
+static double facing_of_names(const sbf_asset *asset, uint32_t turns, sbf_vec3 center, double length) {
   const sbfi_gait_draft seen = {.turns = turns, .center = center};
   double votes = 0, ends[2] = {0, 0};
   uint32_t counts[2] = {0, 0};
@@ -48,7 +48,7 @@ static double width_near(const sbfi_rig_points *points, bool front) {
 
 /* Above 0 if the root of a simple chain of bones is in front of its end; 0 if it is not a simple chain.
  * The heads of fishes and snakes are the roots of their rigs. */
-static double ask_chain(const sbf_asset *asset, uint32_t turns) {
+static double facing_of_chain(const sbf_asset *asset, uint32_t turns) {
   const sbfi_gait_draft seen = {.turns = turns};
   uint32_t count = asset->bones.count;
   for (uint32_t i = 0; i < count; i++)
@@ -64,10 +64,10 @@ bool sbfi_front_turns(
   *turns = 0;
   if (kind == SBFI_LOCOMOTION_NONE) return true;
   if (!sbfi_gather_points(asset, sides, scratch, &points)) return false;
-  double names = ask_names(asset, sides, points.center, points.high[2] - points.low[2]);
+  double names = facing_of_names(asset, sides, points.center, points.high[2] - points.low[2]);
   bool backwards = names < 0;
   if (names == 0 && (kind == SBFI_LOCOMOTION_SWIM || kind == SBFI_LOCOMOTION_SLITHER)) {
-    double chain = ask_chain(asset, sides);
+    double chain = facing_of_chain(asset, sides);
     backwards = chain < 0 || (chain == 0 && width_near(&points, true) < NARROW * width_near(&points, false));
   }
   *turns = sides + 2 * backwards;

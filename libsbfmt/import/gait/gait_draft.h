@@ -9,7 +9,7 @@
  * controls. In a rig without meshes all bones bear except those named as tips. */
 typedef struct sbfi_bone_shape {
   uint32_t points;          /* points of meshes for which the bone has the greatest weight */
-  bool bears;               /* the bone or a descendant has points */
+  bool moves_points;        /* the bone or a descendant has points */
   uint32_t children;        /* children that bear */
   uint32_t middle_children; /* bearing children on neither side */
   double low; /* y of its lowest point, or of its head in a rig without meshes; INFINITY without points */
@@ -87,7 +87,7 @@ static inline sbf_vec3 sbfi_draft_head(const sbfi_gait_draft *d, int32_t bone) {
 }
 
 /* Bone of a leg that touches the ground. */
-static inline int32_t sbfi_draft_stands(const sbfi_leg_draft *leg) {
+static inline int32_t sbfi_draft_is_standing(const sbfi_leg_draft *leg) {
   return leg->toe != SBF_NONE ? leg->toe : leg->end;
 }
 

@@ -5,25 +5,25 @@
 #include "import/convert/conversion.h"
 #include "import/gait/locomotion.h"
 
-enum { SAID = 4 }; /* pieces of evidence in a message */
+enum { MAX_REASONS = 4 }; /* pieces of evidence in a message */
 
 static bool gather_names(sbfi_conversion *c, sbfi_locomotion_names *names) {
   const sbf_asset *a = c->asset;
   uint32_t of_rig = c->rig ? c->rig->clip_count : 0;
   const char **clips = sbfi_arena_allocate(&c->scratch, (size_t)of_rig + a->clips.count + 1, sizeof *clips);
-  const char **things = sbfi_arena_allocate(&c->scratch,
-      (size_t)a->render_meshes.count + a->soft_bodies.count + a->materials.count + 1, sizeof *things);
-  if (!clips || !things) return false;
+  const char **objects = sbfi_arena_allocate(&c->scratch,
+      (size_t)a->render_meshes.count + a->soft_bodies.count + a->materials.count + 1, sizeof *objects);
+  if (!clips || !objects) return false;
   names->clips = clips;
-  names->things = things;
+  names->objects = objects;
   for (uint32_t i = 0; i < of_rig; i++) clips[names->clip_count++] = c->rig->clips[i].name;
   for (uint32_t i = 0; i < a->clips.count; i++) clips[names->clip_count++] = a->clips.at[i].name;
   for (uint32_t i = 0; i < a->render_meshes.count; i++)
-    things[names->thing_count++] = a->render_meshes.at[i].name;
+    objects[names->object_count++] = a->render_meshes.at[i].name;
   for (uint32_t i = 0; i < a->soft_bodies.count; i++)
-    things[names->thing_count++] = a->soft_bodies.at[i].name;
-  for (uint32_t i = 0; i < a->materials.count; i++) things[names->thing_count++] = a->materials.at[i].name;
-  if (a->info.title) things[names->thing_count++] = a->info.title;
+    objects[names->object_count++] = a->soft_bodies.at[i].name;
+  for (uint32_t i = 0; i < a->materials.count; i++) objects[names->object_count++] = a->materials.at[i].name;
+  if (a->info.title) objects[names->object_count++] = a->info.title;
   return true;
 }
 
@@ -31,7 +31,7 @@ static bool gather_names(sbfi_conversion *c, sbfi_locomotion_names *names) {
 static void reasons_text(const sbfi_locomotion *found, sbfi_locomotion_kind kind, char *text, size_t size) {
   bool used[SBFI_MAX_EVIDENCE] = {false};
   text[0] = 0;
-  for (int said = 0; said < SAID; said++) {
+  for (int reason = 0; reason < MAX_REASONS; reason++) {
     int best = -1;
     for (uint32_t e = 0; e < found->evidence_count; e++) {
       if (used[e] || found->evidence[e].kind != kind || found->evidence[e].points <= 0) continue;

@@ -28,8 +28,8 @@ typedef struct evaluation {
   sbfi_rig_points points;
   sbfi_limb_shape *limbs;
   uint32_t limb_count;
-  double height, length, width, size;              /* m; along y, z and x */
-  uint32_t legs, wings, wheels, flippers, holding; /* `holding`: number of bones with points */
+  double height, length, width, size;                      /* m; along y, z and x */
+  uint32_t legs, wings, wheels, flippers, deforming_bones; /* `holding`: number of bones with points */
   bool paired;
   bool is_row; /* a long body of many bones, which moves by waves */
   sbfi_locomotion *found;
@@ -79,11 +79,11 @@ static void score_legs(evaluation *j) {
   if (standing < 2 || (thick < 2 && standing < 4)) return;
   for (uint32_t i = 0; i < j->points.count; i++) middle += (double)j->points.at[i].z / j->points.count;
   double slack = 0.05 * j->size, ground = j->points.low[1];
-  bool carries = ahead + slack > middle && behind - slack < middle && lowest < ground + 0.1 * j->height;
+  bool supports_body = ahead + slack > middle && behind - slack < middle && lowest < ground + 0.1 * j->height;
   bool grounded = fabs(lowest) < 0.1 * j->height;
   j->legs = standing;
-  add(j, SBFI_LOCOMOTION_WALK, carries && grounded ? 4 : 2, "%u limbs in pairs reach %s", standing,
-      carries && grounded ? "the ground below the body" : "down");
+  add(j, SBFI_LOCOMOTION_WALK, supports_body && grounded ? 4 : 2, "%u limbs in pairs reach %s", standing,
+      supports_body && grounded ? "the ground below the body" : "down");
   add(j, SBFI_LOCOMOTION_SWIM, -3, "%u limbs can stand", standing);
 }
 
@@ -108,7 +108,7 @@ static void score_position(evaluation *j) {
   double low = j->points.low[1];
   if (hovers(j) && (j->wings || !j->is_row))
     add(j, SBFI_LOCOMOTION_FLY, 2.5, "it has no legs and is above y = 0");
-  if (low < -0.15 * j->height && j->holding >= 4)
+  if (low < -0.15 * j->height && j->deforming_bones >= 4)
     add(j, SBFI_LOCOMOTION_SWIM, 2, "it is modelled around y = 0, not above it");
 }
 
@@ -207,10 +207,11 @@ static void score_wheels(evaluation *j) {
 static void score_size(evaluation *j) {
   bool grounded = fabs(j->points.low[1]) < 0.05 * j->height;
   add(j, SBFI_LOCOMOTION_NONE, 0.5, "it has nothing to move");
-  if (j->holding <= 3 && !j->paired)
-    add(j, SBFI_LOCOMOTION_NONE, 2.2, "only %u bone%s vertices", j->holding,
-        j->holding == 1 ? " moves" : "s move");
-  if (j->draft.has_mesh && !j->legs && !j->wings && grounded && j->holding >= 4 && j->holding <= 10)
+  if (j->deforming_bones <= 3 && !j->paired)
+    add(j, SBFI_LOCOMOTION_NONE, 2.2, "only %u bone%s vertices", j->deforming_bones,
+        j->deforming_bones == 1 ? " moves" : "s move");
+  if (j->draft.has_mesh && !j->legs && !j->wings && grounded && j->deforming_bones >= 4 &&
+      j->deforming_bones <= 10)
     add(j, SBFI_LOCOMOTION_CRAWL, 2, "it rests on the ground without legs");
 }
 
@@ -220,7 +221,7 @@ static void score_joints(evaluation *j) {
   uint32_t counts[SBFI_WORDS] = {0};
   const sbf_bone_list *bones = &j->draft.asset->bones;
   for (uint32_t i = 0; i < bones->count; i++) {
-    if (!j->draft.shapes[i].bears) continue;
+    if (!j->draft.shapes[i].moves_points) continue;
     uint32_t words = sbfi_words_of(bones->at[i].name);
     for (int w = 0; w < SBFI_WORDS; w++) counts[w] += words >> w & 1;
   }
@@ -236,9 +237,9 @@ static void score_joints(evaluation *j) {
   if (counts[SBFI_WORD_SNAKE]) add(j, SBFI_LOCOMOTION_SLITHER, 2, "a bone is named like a snake's");
 }
 
-static void score_things(evaluation *j, const sbfi_locomotion_names *names) {
+static void score_objects(evaluation *j, const sbfi_locomotion_names *names) {
   uint32_t words = 0, of_bones = 0;
-  for (uint32_t i = 0; i < names->thing_count; i++) words |= sbfi_words_of(names->things[i]);
+  for (uint32_t i = 0; i < names->object_count; i++) words |= sbfi_words_of(names->objects[i]);
   for (uint32_t i = 0; i < j->draft.asset->bones.count; i++)
     of_bones |= sbfi_words_of(j->draft.asset->bones.at[i].name);
   if (words >> SBFI_WORD_FIN & 1) add(j, SBFI_LOCOMOTION_SWIM, 2, "an object or material is named like fins");
@@ -253,7 +254,7 @@ static void score_things(evaluation *j, const sbfi_locomotion_names *names) {
   if (words >> SBFI_WORD_VEHICLE & 1) add(j, SBFI_LOCOMOTION_ROLL, 2, "it is named like a vehicle");
   if (words >> SBFI_WORD_WALKER & 1) add(j, SBFI_LOCOMOTION_WALK, 1, "it is named like something with legs");
   bool has_spine = of_bones & (1u << SBFI_WORD_SPINE | 1u << SBFI_WORD_LEG | 1u << SBFI_WORD_WING);
-  if ((words | of_bones) >> SBFI_WORD_THING & 1 && !has_spine)
+  if ((words | of_bones) >> SBFI_WORD_OBJECT & 1 && !has_spine)
     add(j, SBFI_LOCOMOTION_NONE, 2, "it is named like an object");
 }
 
@@ -347,7 +348,7 @@ bool sbfi_find_locomotion(
   if (asset->bones.count == 0) return true;
   uint32_t *holds = sbfi_arena_allocate(scratch, asset->bones.count, sizeof *holds);
   if (!holds || !predict(&j, scratch)) return false;
-  for (uint32_t i = 0; i < j.points.count; i++) j.holding += holds[j.points.bone[i]]++ == 0;
+  for (uint32_t i = 0; i < j.points.count; i++) j.deforming_bones += holds[j.points.bone[i]]++ == 0;
   j.width = j.points.high[0] - j.points.low[0];
   j.height = j.points.high[1] - j.points.low[1];
   j.length = j.points.high[2] - j.points.low[2];
@@ -362,7 +363,7 @@ bool sbfi_find_locomotion(
   }
   score_size(&j);
   score_joints(&j);
-  score_things(&j, names);
+  score_objects(&j, names);
   score_clips(&j, names);
   decide(&j);
   return true;

@@ -37,8 +37,8 @@ typedef struct sbfi_locomotion {
 typedef struct sbfi_locomotion_names {
   const char *const *clips;
   uint32_t clip_count;
-  const char *const *things; /* meshes, materials, objects, the file */
-  uint32_t thing_count;
+  const char *const *objects; /* meshes, materials, objects, the file */
+  uint32_t object_count;
 } sbfi_locomotion_names;
 
 /* "walk", "swim" ... as the format spells them. */
@@ -68,7 +68,7 @@ typedef enum sbfi_word {
   SBFI_WORD_BIRD,    /* an animal that flies, or an aircraft */
   SBFI_WORD_VEHICLE, /* something that rolls */
   SBFI_WORD_WALKER,  /* an animal or a person on legs */
-  SBFI_WORD_THING,   /* something that does not move by itself */
+  SBFI_WORD_OBJECT,  /* something that does not move by itself */
   SBFI_WORDS
 } sbfi_word;
 

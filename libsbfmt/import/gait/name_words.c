@@ -85,7 +85,7 @@ static const word_list lists[] = {
         "elephant lizard spider crab ant beetle robot zombie knight soldier skeleton dinosaur trex raptor "
         "mensch pferd hund katze kuh ",
         NULL},
-    {SBFI_WORD_THING,
+    {SBFI_WORD_OBJECT,
         " lever door gate crate box barrel coin key trap spike spikes button lid hinge drawer cannon flag "
         "platform hazard plant tree chain rope lamp treasure truhe tuer hebel kiste porte coffre levier "
         "puerta cofre palanca porta baule leva bau alavanca skrzynia drzwi ",

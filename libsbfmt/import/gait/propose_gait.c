@@ -45,11 +45,11 @@ static bool write_ik_chains(sbfi_conversion *c, sbfi_gait_draft *d) {
   for (uint32_t l = 0; l < d->leg_count; l++) {
     const sbfi_leg_draft *leg = &d->legs[l];
     sbf_ik_chain_init(&chains[l]);
-    chains[l].name = sbfi_draft_bone(d, sbfi_draft_stands(leg))->name;
+    chains[l].name = sbfi_draft_bone(d, sbfi_draft_is_standing(leg))->name;
     chains[l].id = sbfi_new_id(c, "ik", chains[l].name);
     if (!chains[l].id) return false;
     chains[l].root = leg->upper;
-    chains[l].end = sbfi_draft_stands(leg);
+    chains[l].end = sbfi_draft_is_standing(leg);
     chains[l].proposed = true;
     if (leg->lower == SBF_NONE) {
       chains[l].solver = SBF_IK_SOLVER_CCD;
@@ -80,7 +80,7 @@ static bool write_legs(sbfi_gait_draft *d, sbf_gait *gait) {
   if (!legs) return false;
   for (uint32_t l = 0; l < d->leg_count; l++) {
     const sbfi_leg_draft *from = &d->legs[l];
-    int32_t stands = sbfi_draft_stands(from);
+    int32_t stands = sbfi_draft_is_standing(from);
     double lowest = d->shapes[stands].low_below;
     sbf_leg_init(&legs[l]);
     legs[l].name = sbfi_draft_bone(d, stands)->name;

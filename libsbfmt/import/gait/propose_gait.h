@@ -11,7 +11,7 @@
  * warns. */
 sbf_status sbfi_propose_gait(sbfi_conversion *c);
 
-/* Before the asset is turned ahead: warns if bones named as legs do not point down. */
+/* Before the asset is rotated to face ahead: warns if bones named as legs do not point down. */
 sbf_status sbfi_report_lying(sbfi_conversion *c);
 /* After the gait: warns of skeletons of other characters, which no gait moves. */
 sbf_status sbfi_report_other_skeletons(sbfi_conversion *c);

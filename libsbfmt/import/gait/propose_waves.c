@@ -49,7 +49,8 @@ static bool limb_bones(sbfi_conversion *c, const sbfi_rig_view *view, int32_t ro
     bones[count++] = (uint32_t)bone;
     for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++) {
       double x = fabs((double)sbfi_draft_head(d, (int32_t)i).x);
-      if (sbfi_draft_bone(d, (int32_t)i)->parent != bone || !d->shapes[i].bears || x <= farthest) continue;
+      if (sbfi_draft_bone(d, (int32_t)i)->parent != bone || !d->shapes[i].moves_points || x <= farthest)
+        continue;
       farthest = x;
       next = (int32_t)i;
     }
@@ -123,7 +124,7 @@ static bool propose_fins(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait
   if (!fins) return false;
   for (uint32_t l = 0; l < view->limb_count; l++) {
     const sbfi_limb_shape *limb = &view->limbs[l];
-    if (limb->twin == SBF_NONE || limb->points == 0 || !view->draft.shapes[limb->root].bears) continue;
+    if (limb->twin == SBF_NONE || limb->points == 0 || !view->draft.shapes[limb->root].moves_points) continue;
     if (!fill_fin(c, view, limb, &fins[count])) return false;
     bool beats = ray != SBF_NONE && ((int32_t)l == ray || limb->twin == ray);
     if (beats)

@@ -41,8 +41,8 @@ static double turned_by(const double q[4]) {
 }
 
 /* Writes keys of the bones that rotate; false if memory runs out. */
-static bool write_pose(
-    sbfi_conversion *c, const char *name, const double (*turns)[4], const bool *turned, sbf_pose *pose) {
+static bool write_pose(sbfi_conversion *c, const char *name, const double (*rotations)[4],
+    const bool *is_rotated, sbf_pose *pose) {
   uint32_t count = 0;
   sbf_pose_key *keys = sbfi_convert_allocate(c, c->asset->bones.count, sizeof *keys);
   sbf_pose_init(pose);
@@ -50,11 +50,11 @@ static bool write_pose(
   pose->id = sbfi_new_id(c, "pose", name);
   if (!keys || !pose->id) return false;
   for (uint32_t i = 0; i < c->asset->bones.count; i++) {
-    if (!turned[i]) continue;
+    if (!is_rotated[i]) continue;
     sbf_pose_key_init(&keys[count]);
     keys[count].bone = (int32_t)i;
-    keys[count++].rotation =
-        (sbf_quat){(float)turns[i][0], (float)turns[i][1], (float)turns[i][2], (float)turns[i][3]};
+    keys[count++].rotation = (sbf_quat){
+        (float)rotations[i][0], (float)rotations[i][1], (float)rotations[i][2], (float)rotations[i][3]};
   }
   pose->keys = (sbf_pose_key_list){count ? keys : NULL, count};
   return true;
@@ -67,8 +67,8 @@ static void key_of(const double rest[4], const double posed[4], double key[4]) {
 }
 
 /* Reads the first frame of a clip as rotations from rest. */
-static bool use_clip(sbfi_conversion *c, const sbf_clip *clip, const bool *alone, double (*turns)[4],
-    bool *turned, bool *any) {
+static bool use_clip(sbfi_conversion *c, const sbf_clip *clip, const bool *alone, double (*rotations)[4],
+    bool *is_rotated, bool *any) {
   const sbf_asset *a = c->asset;
   sbfi_clip_poses poses;
   sbfi_bone_frame *frames = sbfi_arena_allocate(&c->scratch, a->bones.count, sizeof *frames);
@@ -81,23 +81,23 @@ static bool use_clip(sbfi_conversion *c, const sbf_clip *clip, const bool *alone
     key_of(frames[parent].rotation, frames[i].rotation, local);
     key_of(poses.rest_local[i].rotation, local, key);
     if (turned_by(key) < STILL) continue;
-    memcpy(turns[i], key, sizeof key);
-    turned[i] = *any = true;
+    memcpy(rotations[i], key, sizeof key);
+    is_rotated[i] = *any = true;
   }
   return true;
 }
 
 /* Converts rotations in asset space, relative to the parent's, to rotations from rest in the bone's own
  * frame. */
-static void convert_to_bone_frames(const sbf_asset *a, const bool *turned, double (*turns)[4]) {
+static void convert_to_bone_frames(const sbf_asset *a, const bool *is_rotated, double (*rotations)[4]) {
   for (uint32_t i = 0; i < a->bones.count; i++) {
     const sbf_quat q = a->bones.at[i].rotation;
     const double rest[4] = {(double)q.x, (double)q.y, (double)q.z, (double)q.w};
     double undo[4];
-    if (!turned[i]) continue;
+    if (!is_rotated[i]) continue;
     sbfi_quatd_conjugate(rest, undo);
-    sbfi_quatd_multiply(undo, turns[i], turns[i]);
-    sbfi_quatd_multiply(turns[i], rest, turns[i]);
+    sbfi_quatd_multiply(undo, rotations[i], rotations[i]);
+    sbfi_quatd_multiply(rotations[i], rest, rotations[i]);
   }
 }
 
@@ -114,14 +114,14 @@ static const sbf_clip *find_idle(const sbf_asset *a) {
 }
 
 typedef struct pose_work {
-  double (*turns)[4];
-  bool *turned;
+  double (*rotations)[4];
+  bool *is_rotated;
 } pose_work;
 
 static bool start(sbfi_conversion *c, pose_work *w) {
-  w->turns = sbfi_arena_allocate(&c->scratch, c->asset->bones.count, sizeof *w->turns);
-  w->turned = sbfi_arena_allocate(&c->scratch, c->asset->bones.count, sizeof *w->turned);
-  return w->turns && w->turned;
+  w->rotations = sbfi_arena_allocate(&c->scratch, c->asset->bones.count, sizeof *w->rotations);
+  w->is_rotated = sbfi_arena_allocate(&c->scratch, c->asset->bones.count, sizeof *w->is_rotated);
+  return w->rotations && w->is_rotated;
 }
 
 /* Rotation of a bone's frame in asset space in the pose. */
@@ -138,7 +138,7 @@ static void posed_rotation(const sbf_asset *a, const pose_work *pose, int32_t bo
     key_of(parent_rest, rest, local);
     sbfi_quatd_multiply(above, local, to);
   }
-  if (pose->turned[bone]) sbfi_quatd_multiply(to, pose->turns[bone], to);
+  if (pose->is_rotated[bone]) sbfi_quatd_multiply(to, pose->rotations[bone], to);
 }
 
 static void swing(const sbf_asset *a, const pose_work *rest, int32_t bone, double angle, pose_work *to) {
@@ -147,9 +147,9 @@ static void swing(const sbf_asset *a, const pose_work *rest, int32_t bone, doubl
   const double about[4] = {-sin(angle / 2), 0, 0, cos(angle / 2)}; /* moves a hanging bone forward */
   posed_rotation(a, rest, bone, posed);
   sbfi_quatd_conjugate(posed, undo);
-  sbfi_quatd_multiply(undo, about, to->turns[bone]);
-  sbfi_quatd_multiply(to->turns[bone], posed, to->turns[bone]);
-  to->turned[bone] = true;
+  sbfi_quatd_multiply(undo, about, to->rotations[bone]);
+  sbfi_quatd_multiply(to->rotations[bone], posed, to->rotations[bone]);
+  to->is_rotated[bone] = true;
 }
 
 /* Length of the shortest leg, m: sum of the distances between the heads of its bones. */
@@ -182,8 +182,8 @@ static bool write_swings(sbfi_conversion *c, const sbf_gait *gait, const sbfi_ar
       swing(a, rest, arms[i].upper, of->shoulder * ahead, &w);
       swing(a, rest, arms[i].lower, of->elbow * ahead, &w);
     }
-    if (!write_pose(
-            c, reaches ? of->reaching : of->passing, (const double(*)[4])w.turns, w.turned, &poses[k]))
+    if (!write_pose(c, reaches ? of->reaching : of->passing, (const double(*)[4])w.rotations, w.is_rotated,
+            &poses[k]))
       return false;
     poses[k].distance = (float)(of->step * leg * (reaches ? 1 : 0.5));
     poses[k].speed = (float)(of->speed * leg);
@@ -202,15 +202,16 @@ static bool propose(sbfi_conversion *c, sbf_gait *gait) {
   pose_work rest;
   sbf_pose *poses = sbfi_convert_allocate(c, 1 + 2 * SWINGS, sizeof *poses);
   if (!alone || !poses || !start(c, &rest) || !sbfi_view_rig(&view, a, 0, &c->scratch)) return false;
-  if (idle && !use_clip(c, idle, alone, rest.turns, rest.turned, &any)) return false;
+  if (idle && !use_clip(c, idle, alone, rest.rotations, rest.is_rotated, &any)) return false;
   uint32_t arm_count = sbfi_draft_arms(&view, gait, arms), count = 0;
   if (!idle) {
-    sbfi_pose_draft draft = {rest.turns, rest.turned, a->bones.count};
-    any = sbfi_hang_arms(&view, arms, arm_count, &draft);
-    convert_to_bone_frames(a, rest.turned, rest.turns);
+    sbfi_pose_draft draft = {rest.rotations, rest.is_rotated, a->bones.count};
+    any = sbfi_lower_arms(&view, arms, arm_count, &draft);
+    convert_to_bone_frames(a, rest.is_rotated, rest.rotations);
   }
   if (any) {
-    if (!write_pose(c, "stance", (const double(*)[4])rest.turns, rest.turned, &poses[count++])) return false;
+    if (!write_pose(c, "stance", (const double(*)[4])rest.rotations, rest.is_rotated, &poses[count++]))
+      return false;
     gait->rest_pose = 0;
     if (idle)
       sbfi_convert_warn(c, SBF_CODE_REST_POSE_PROPOSED,

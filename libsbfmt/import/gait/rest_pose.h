@@ -20,14 +20,14 @@ uint32_t sbfi_draft_arms(const sbfi_rig_view *view, const sbf_gait *gait, sbfi_a
 
 /* A pose under construction: rotations of bones in asset space, each applied on top of its parent's. */
 typedef struct sbfi_pose_draft {
-  double (*turns)[4]; /* (bones) x y z w, from the bind pose, relative to the parent's rotation */
-  bool *turned;       /* (bones) whether the bone rotates */
+  double (*rotations)[4]; /* (bones) x y z w, from the bind pose, relative to the parent's rotation */
+  bool *is_rotated;       /* (bones) whether the bone rotates */
   uint32_t count;
 } sbfi_pose_draft;
 
 /* Lowers arms: 70 degrees down, 5 forward, elbows bent by 20, fingers curled. Arms that already hang by 30
  * degrees or more stay. Returns whether any arm moved. */
-bool sbfi_hang_arms(
+bool sbfi_lower_arms(
     const sbfi_rig_view *view, const sbfi_arm_draft *arms, uint32_t count, sbfi_pose_draft *pose);
 
 #endif

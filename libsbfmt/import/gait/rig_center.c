@@ -70,9 +70,9 @@ static bool has_mirrored(const heads *h, uint32_t bone, int axis, double plane) 
 
 /* Fraction of the bones that have a mirrored one. */
 static double rate(const heads *h, int axis, double plane) {
-  uint32_t step = h->count / MAX_SAMPLES + 1, asked = 0, alike = 0;
-  for (uint32_t i = 0; i < h->count; i += step, asked++) alike += has_mirrored(h, i, axis, plane);
-  return asked ? (double)alike / asked : 0;
+  uint32_t step = h->count / MAX_SAMPLES + 1, sampled = 0, alike = 0;
+  for (uint32_t i = 0; i < h->count; i += step, sampled++) alike += has_mirrored(h, i, axis, plane);
+  return sampled ? (double)alike / sampled : 0;
 }
 
 bool sbfi_rig_center(const sbf_asset *asset, sbfi_arena *scratch, sbf_vec3 *center) {

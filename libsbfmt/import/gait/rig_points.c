@@ -4,8 +4,11 @@
 #include "import/gait/locomotion.h"
 #include "motion/retargeting.h"
 
-enum { ASKED = 400, COMPARED = 6000 }; /* points that are mirrored, and points that they are compared with */
-enum { MIN_NAMED = 2 };                /* minimum number of bones that name a side */
+enum {
+  SAMPLED = 400,
+  COMPARED = 6000
+};                      /* points that are mirrored, and points that they are compared with */
+enum { MIN_NAMED = 2 }; /* minimum number of bones that name a side */
 /* minimum difference between the scores of names along x and along z */
 static const double CLEAR_VOTES = 0.3;
 static const double CLEARLY = 0.85; /* maximum ratio of errors for facing along X to be the better guess */
@@ -77,11 +80,11 @@ bool sbfi_gather_points(
 static double mirror_error(const sbfi_rig_points *points, int axis) {
   double size = 0, best = INFINITY;
   for (int k = 0; k < 3; k++) size = fmax(size, points->high[k] - points->low[k]);
-  uint32_t ask = points->count / ASKED + 1, compare = points->count / COMPARED + 1;
+  uint32_t sample_step = points->count / SAMPLED + 1, compare = points->count / COMPARED + 1;
   for (int middle = 0; middle < 2; middle++) {
     double plane = middle ? 0.5 * (points->low[axis] + points->high[axis]) : 0, sum = 0;
-    uint32_t asked = 0;
-    for (uint32_t i = 0; i < points->count; i += ask, asked++) {
+    uint32_t sampled = 0;
+    for (uint32_t i = 0; i < points->count; i += sample_step, sampled++) {
       double p[3] = {(double)points->at[i].x, (double)points->at[i].y, (double)points->at[i].z};
       double nearest = INFINITY;
       p[axis] = 2 * plane - p[axis];
@@ -92,7 +95,7 @@ static double mirror_error(const sbfi_rig_points *points, int axis) {
       }
       sum += sqrt(nearest);
     }
-    best = fmin(best, sum / (asked * size));
+    best = fmin(best, sum / (sampled * size));
   }
   return best;
 }

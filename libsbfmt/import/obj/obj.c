@@ -5,8 +5,8 @@
 #include "base/diagnostic.h"
 #include "base/file.h"
 #include "import/obj/mtl.h"
-#include "import/path_beside.h"
 #include "import/quote.h"
+#include "import/sibling_path.h"
 
 enum { LIBRARY_LIMIT_BYTES = 64 << 20 };
 enum { NAME_WORDS = 8 }; /* maximum number of words in the name of a library */
@@ -30,7 +30,7 @@ static sbf_status out_of_memory(sbf_diagnostic *error) {
 static bool read_library(materials *m, sbfi_span name, bool *found) {
   char path[4096];
   sbfi_file file;
-  *found = sbfi_path_beside(path, sizeof path, m->scene->path, name) &&
+  *found = sbfi_sibling_path(path, sizeof path, m->scene->path, name) &&
            sbfi_file_open(path, &file, NULL) == SBF_OK;
   if (!*found) return true;
   size_t size = file.size <= LIBRARY_LIMIT_BYTES ? (size_t)file.size : 0;

@@ -31,7 +31,7 @@ static const double GOOD = 0.95; /* fraction of the length inside that needs no 
 /* For rotated limbs: minimum fraction of the bones inside, maximum fraction of the input without bones,
  * maximum ratio of the cost to that without rotations. Radius of a body around its bones as a fraction of
  * its longest side. */
-static const double MIN_TURNED = 0.85, MAX_UNCOVERED = 0.35, BETTER_TURNED = 0.85, THICK = 0.15;
+static const double MIN_ROTATED = 0.85, MAX_UNCOVERED = 0.35, BETTER_ROTATED = 0.85, THICK = 0.15;
 static const double BETTER = 0.02; /* minimum improvement by a later candidate */
 static const double NEARNESS = 2;  /* weight of a mean distance against the fraction inside */
 /* minimum extent of the bones as a fraction of the body's longest side, for the stated transform */
@@ -463,13 +463,13 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, bool is_stated, bool *
     count = collect_candidates(s, candidates);
   bool good = sbfi_align_limbs(r, &s->lines, candidates, count, &s->best.m, &found, &arena);
   *matched = s->best.fraction >= GOOD;
-  if (good && found.names[0] && found.cost < BETTER_TURNED * found.unposed_cost) {
+  if (good && found.names[0] && found.cost < BETTER_ROTATED * found.unposed_cost) {
     const candidate before = s->best;
     sbfi_bone_line *lines = s->lines.at;
     s->best.m = found.to_asset;
     s->lines.at = found.lines;
     s->best.fraction = inside_fraction(s, &s->best.m, 0);
-    bool fits = s->best.fraction >= MIN_TURNED && uncovered_fraction(s) <= MAX_UNCOVERED;
+    bool fits = s->best.fraction >= MIN_ROTATED && uncovered_fraction(s) <= MAX_UNCOVERED;
     if (fits || (!is_stated && s->best.fraction >= SBFI_MIN_BONES_INSIDE)) {
       r->alignment.to_asset = s->best.m;
       if (!fits) status = report_limbs_outside(s, &found, &arena);

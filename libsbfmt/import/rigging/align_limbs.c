@@ -40,11 +40,11 @@ static double longest_side(const sbfi_bone_lines *lines) {
   return fmax(sides.x, fmax(sides.y, sides.z));
 }
 
-static void name_turned(const sbfi_limb_fit *f, char *text, size_t size) {
+static void name_rotated(const sbfi_limb_fit *f, char *text, size_t size) {
   text[0] = 0;
   for (uint32_t b = 0; b < f->bone_count; b++) {
     size_t used = strlen(text);
-    if (f->is_turned[b] && used + 60 < size)
+    if (f->is_rotated[b] && used + 60 < size)
       snprintf(text + used, size - used, "%s'%.40s'", used ? ", " : "", f->bones[b].name);
   }
 }
@@ -57,7 +57,7 @@ static void take(const sbfi_limb_fit *f, const sbfi_matrix *m, sbfi_limb_alignme
   found->motions = f->motions;
   found->lines = f->posed.at;
   found->cost = f->cost;
-  name_turned(f, found->names, sizeof found->names);
+  name_rotated(f, found->names, sizeof found->names);
 }
 
 /* Fits a symmetric input, starting from the rig's pose of each side. */

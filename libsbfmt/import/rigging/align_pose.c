@@ -26,9 +26,9 @@ static const double USUAL = 0.1;
 static const double NEAR = 0.01;
 /* Maximum distance of correspondences in passes after the first, as a fraction of the size. */
 static const double LATER_WITHIN = 0.05;
-/* Rotations below REPORTED, rad, are not reported. If none exceeds MIN_TURN, the input has the pose of the
- * rig's mesh. */
-static const double REPORTED = 0.087, MIN_TURN = 0.17;
+/* Rotations below REPORTED, rad, are not reported. If none exceeds MIN_ROTATION, the input has the pose of
+ * the rig's mesh. */
+static const double REPORTED = 0.087, MIN_ROTATION = 0.17;
 
 static bool apply_pose(sbfi_rigging *r, const sbfi_pose_fit *f) {
   sbfi_arena *arena = &r->c->scratch;
@@ -73,26 +73,26 @@ static void report_pose(const sbfi_pose_fit *f, const sbfi_pose_gaps *gaps) {
       "the input has another pose than the mesh of %s: bones were rotated with their children to match it, "
       "%s",
       f->r->rig.scene->file, text);
-  if (gaps->input_beside > DOUBTFUL)
+  if (gaps->input_unmatched > DOUBTFUL)
     sbfi_convert_warn(f->r->c, SBF_CODE_RIG_OTHER_MESH,
         "in that pose %.0f %% of the input's surface is still away from the mesh of %s: check its limbs in "
         "--report; if they follow wrong bones, use an input in the pose of the rig's mesh",
-        100 * gaps->input_beside, f->r->rig.scene->file);
+        100 * gaps->input_unmatched, f->r->rig.scene->file);
 }
 
-static double beside(const sbfi_pose_gaps *gaps) {
-  return gaps->input_beside + gaps->rig_beside;
+static double unmatched(const sbfi_pose_gaps *gaps) {
+  return gaps->input_unmatched + gaps->rig_unmatched;
 }
 
 /* Repeats passes while they reduce the gaps; stores the remaining gaps. */
 static bool fit(sbfi_pose_fit *f, bool is_free, sbfi_pose_gaps *gaps) {
-  for (int pass = 0; pass < PASSES && beside(gaps) > FITTED; pass++) {
-    double last = beside(gaps);
+  for (int pass = 0; pass < PASSES && unmatched(gaps) > FITTED; pass++) {
+    double last = unmatched(gaps);
     if (!sbfi_pose_search_limbs(f) ||
         !sbfi_pose_fit_joints(f, pass ? LATER_WITHIN : SBFI_MAX_GAP, is_free && pass > 0))
       return false;
     *gaps = sbfi_pose_fit_gaps(f);
-    if (beside(gaps) > (pass ? BETTER * last : HOPELESS)) break;
+    if (unmatched(gaps) > (pass ? BETTER * last : HOPELESS)) break;
   }
   return true;
 }
@@ -110,7 +110,7 @@ static bool fit_from_usual(const sbfi_rigging *r, sbfi_pose_fit *f, sbfi_arena *
   sbfi_pose_gaps found = {0};
   if (good) found = sbfi_pose_fit_gaps(&other);
   if (good) good = fit(&other, true, &found);
-  bool better = good && beside(&found) < beside(gaps);
+  bool better = good && unmatched(&found) < unmatched(gaps);
   sbfi_pose_fit_end(better ? f : &other);
   if (!better) return good;
   *f = other;
@@ -119,15 +119,15 @@ static bool fit_from_usual(const sbfi_rigging *r, sbfi_pose_fit *f, sbfi_arena *
   return true;
 }
 
-static double widest_turn(const sbfi_pose_fit *f) {
+static double widest_rotation(const sbfi_pose_fit *f) {
   double widest = 0;
   for (uint32_t b = 0; b < f->bone_count; b++) widest = fmax(widest, rotation_of(f, b));
   return widest;
 }
 
 static bool is_found(const sbfi_pose_fit *f, const sbfi_pose_gaps *before, const sbfi_pose_gaps *after) {
-  return after->input_beside < FITTING && after->rig_beside < FITTING && after->median < NEAR &&
-         beside(after) < FEWER * beside(before) && widest_turn(f) >= MIN_TURN;
+  return after->input_unmatched < FITTING && after->rig_unmatched < FITTING && after->median < NEAR &&
+         unmatched(after) < FEWER * unmatched(before) && widest_rotation(f) >= MIN_ROTATION;
 }
 
 bool sbfi_align_pose(sbfi_rigging *r, bool *found) {
@@ -140,10 +140,10 @@ bool sbfi_align_pose(sbfi_rigging *r, bool *found) {
   bool good = sbfi_pose_fit_begin(&f, r, &scratch);
   sbfi_pose_gaps before = {0}, after;
   if (good) before = sbfi_pose_fit_gaps(&f);
-  if (good && beside(&before) > POSED) {
+  if (good && unmatched(&before) > POSED) {
     after = before;
     good = fit(&f, !by_points, &after);
-    if (good && !by_points && beside(&after) > WELL) good = fit_from_usual(r, &f, &scratch, &after);
+    if (good && !by_points && unmatched(&after) > WELL) good = fit_from_usual(r, &f, &scratch, &after);
     *found = good && is_found(&f, &before, &after);
     if (*found) report_pose(&f, &after);
     if (*found) good = apply_pose(r, &f);

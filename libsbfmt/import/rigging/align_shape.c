@@ -15,7 +15,7 @@ enum { SAMPLES = 300, FIRST_SAMPLES = 40, KEPT = 4, PASSES = 12 };
 /* Upper bound of a distance as a fraction of the rig's size. */
 static const double FARTHEST = 0.2;
 /* Points farther away belong to another character or an object that one holds. */
-static const double BESIDE = 0.1;
+static const double MAX_GAP = 0.1;
 /* Minimum relative improvement by a later candidate. */
 static const double BETTER = 0.1;
 
@@ -154,8 +154,8 @@ bool sbfi_median_gap(const sbfi_rigging *r, double *median) {
   for (uint32_t i = 0; good && i < SAMPLES; i++) {
     sbfi_d3 p = sbfi_d3_of(r->input.mesh.positions.at[sample(&r->input, i)]);
     p = sbfi_similarity_apply(&r->alignment.to_asset, p);
-    double distance = distance_to(&rig, p, BESIDE * r->rig.size) / r->rig.size;
-    if (distance < BESIDE) distances[count++] = distance;
+    double distance = distance_to(&rig, p, MAX_GAP * r->rig.size) / r->rig.size;
+    if (distance < MAX_GAP) distances[count++] = distance;
   }
   if (count) qsort(distances, count, sizeof *distances, compare);
   *median = count ? distances[count / 2] : 0;

@@ -22,13 +22,14 @@ static void add_line(sbfi_bone_lines *s, const sbf_bone *bones, uint32_t child, 
 
 /* Exporters place the end of a limb's last bone at a distance from their settings. Ends farther than the
  * longest bone of the rig's limbs are moved to the median length. */
-static void shorten_ends(const sbfi_rigging *r, const bool *holds_skin, double *lengths) {
+static void shorten_ends(const sbfi_rigging *r, const bool *has_skin_points, double *lengths) {
   const sbf_bone_list *bones = &r->c->asset->bones;
   const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
   uint32_t count = 0;
   for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
-    if (parent == SBF_NONE || !holds_skin[parent] || !holds_skin[b] || sbfi_bone_is_on_root(&in, b)) continue;
+    if (parent == SBF_NONE || !has_skin_points[parent] || !has_skin_points[b] || sbfi_bone_is_on_root(&in, b))
+      continue;
     lengths[count++] =
         sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[parent].head)));
   }
@@ -37,7 +38,7 @@ static void shorten_ends(const sbfi_rigging *r, const bool *holds_skin, double *
   double longest = lengths[count - 1], median = lengths[count / 2];
   for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
-    if (!sbfi_bone_is_end(&in, b) || !holds_skin[parent]) continue;
+    if (!sbfi_bone_is_end(&in, b) || !has_skin_points[parent]) continue;
     sbf_bone *end = (sbf_bone *)(uintptr_t)&bones->at[b]; /* the conversion owns the asset */
     sbf_bone *last = (sbf_bone *)(uintptr_t)&bones->at[parent];
     sbfi_d3 from = sbfi_d3_of(last->head), along = sbfi_d3_sub(sbfi_d3_of(end->head), from);
@@ -52,24 +53,24 @@ bool sbfi_bone_lines_find(const sbfi_rigging *r, sbfi_bone_lines *s, sbfi_arena 
   const sbf_bone_list *bones = &r->c->asset->bones;
   *s = (sbfi_bone_lines){0};
   const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
-  bool *holds_skin = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *holds_skin);
+  bool *has_skin_points = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *has_skin_points);
   double *lengths = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *lengths);
   s->at = sbfi_arena_allocate(arena, 2 * (size_t)bones->count, sizeof *s->at);
-  if (!s->at || !holds_skin || !lengths) return false;
+  if (!s->at || !has_skin_points || !lengths) return false;
   double size = 0;
   for (uint32_t b = 1; b < bones->count; b++)
     size =
         fmax(size, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[0].head))));
   const sbfi_weight_mesh space = {.scale = size > 0 ? 1 / size : 1};
-  sbfi_bone_roles_find(&in, &space, NULL, holds_skin);
-  shorten_ends(r, holds_skin, lengths);
+  sbfi_bone_roles_find(&in, &space, NULL, has_skin_points);
+  shorten_ends(r, has_skin_points, lengths);
   uint32_t joined = 0; /* bones between two bones that have skin */
   for (uint32_t b = 0; b < bones->count; b++)
-    joined += bones->at[b].parent != SBF_NONE && holds_skin[bones->at[b].parent] && holds_skin[b];
+    joined += bones->at[b].parent != SBF_NONE && has_skin_points[bones->at[b].parent] && has_skin_points[b];
   for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
     bool is_end = sbfi_bone_is_end(&in, b);
-    if (parent == SBF_NONE || !holds_skin[parent] || (!holds_skin[b] && !is_end)) continue;
+    if (parent == SBF_NONE || !has_skin_points[parent] || (!has_skin_points[b] && !is_end)) continue;
     if (is_end && joined > SEVERAL) continue;
     add_line(s, bones->at, b, is_end);
   }

@@ -14,7 +14,7 @@
 /* Step between frames, s; it is longer if the limit of posed points needs it. Frames to search around, and
  * search steps. */
 static const double FRAME = 1.0 / 24, MAX_POINTS = 1e7;
-enum { LOOKED_AT = 8, REFINED = 18 };
+enum { SAMPLES = 8, REFINED = 18 };
 /* Maximum difference at a frame for a search around it; maximum difference for a comparison of points;
  * difference that counts as equal. Points without weights can be anywhere. */
 static const double ALIKE = 0.03, ALIKE_BETWEEN = 2e-3, SAME = 1e-6;
@@ -31,7 +31,7 @@ typedef struct search {
   sbfi_scene_node *nodes;
   sbfi_matrix *worlds, *motions;
   sbf_vec3 *positions;
-  sbfi_clip_moment best[LOOKED_AT]; /* best first */
+  sbfi_clip_moment best[SAMPLES]; /* best first */
   uint32_t count;
 } search;
 
@@ -99,7 +99,7 @@ static void mix_vectors(const sbf_vec3 *keys, uint32_t at, double t, double to[3
   to[0] = p.x, to[1] = p.y, to[2] = p.z;
 }
 
-static void mix_turns(const sbf_quat *keys, uint32_t at, double t, double to[4]) {
+static void blend_rotations(const sbf_quat *keys, uint32_t at, double t, double to[4]) {
   const sbf_quat a = keys[at], b = keys[t > 0 ? at + 1 : at];
   const double from[4] = {(double)a.x, (double)a.y, (double)a.z, (double)a.w};
   const double until[4] = {(double)b.x, (double)b.y, (double)b.z, (double)b.w};
@@ -116,7 +116,7 @@ static void pose_at(search *s, const sbfi_scene_clip *clip, double time) {
     uint32_t at = key_before(channel->position_times, channel->position_count, time, &t);
     if (channel->position_count) mix_vectors(channel->positions, at, t, trs.position);
     at = key_before(channel->rotation_times, channel->rotation_count, time, &t);
-    if (channel->rotation_count) mix_turns(channel->rotations, at, t, trs.rotation);
+    if (channel->rotation_count) blend_rotations(channel->rotations, at, t, trs.rotation);
     at = key_before(channel->scale_times, channel->scale_count, time, &t);
     if (channel->scale_count) mix_vectors(channel->scales, at, t, trs.scale);
     if (channel->position_count || channel->rotation_count || channel->scale_count)
@@ -134,10 +134,10 @@ static double difference_at(search *s, const sbfi_scene_clip *clip, double time)
 }
 
 static void keep(search *s, sbfi_clip_moment pose) {
-  uint32_t at = s->count < LOOKED_AT ? s->count++ : LOOKED_AT;
+  uint32_t at = s->count < SAMPLES ? s->count++ : SAMPLES;
   for (; at > 0 && pose.difference < s->best[at - 1].difference; at--)
-    if (at < LOOKED_AT) s->best[at] = s->best[at - 1];
-  if (at < LOOKED_AT) s->best[at] = pose;
+    if (at < SAMPLES) s->best[at] = s->best[at - 1];
+  if (at < SAMPLES) s->best[at] = pose;
 }
 
 /* Keeps frames that are local minima. */

@@ -17,9 +17,9 @@ static int compare_points(const sbf_vec3 *a, const sbf_vec3 *b) {
 
 /* Whether the mesh is attached like a mesh of the rig, and its format has no vertices of its own. */
 static bool is_piece(const sbfi_rigging *r, uint32_t mesh) {
-  if (r->carriers[mesh] == SBF_NONE || r->input.scene->meshes[mesh].corner_vertices) return false;
+  if (r->parent_nodes[mesh] == SBF_NONE || r->input.scene->meshes[mesh].corner_vertices) return false;
   for (uint32_t m = 0; m < r->rig.scene->mesh_count; m++)
-    if (r->rig.scene->meshes[m].node == r->carriers[mesh]) return true;
+    if (r->rig.scene->meshes[m].node == r->parent_nodes[mesh]) return true;
   return false;
 }
 
@@ -69,7 +69,7 @@ static bool join_along_borders(const sbfi_rigging *r, uint32_t *sets) {
     for (end = i + 1; end < count && compare_sides(&sides[end], &sides[i]) == 0;) end++;
     if (!same) last = UINT32_MAX;
     if ((end - i) % 2 == 0) continue;
-    if (last != UINT32_MAX && r->carriers[last] == r->carriers[sides[i].mesh])
+    if (last != UINT32_MAX && r->parent_nodes[last] == r->parent_nodes[sides[i].mesh])
       sbfi_sets_join(sets, last, sides[i].mesh);
     last = sides[i].mesh;
   }
@@ -78,8 +78,8 @@ static bool join_along_borders(const sbfi_rigging *r, uint32_t *sets) {
 
 static void join_those_by_position(const sbfi_rigging *r, uint32_t *sets) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
-    for (uint32_t k = 0; is_piece(r, m) && r->lies_on[m] == r->carriers[m] && k < m; k++)
-      if (is_piece(r, k) && r->lies_on[k] == r->lies_on[m]) sbfi_sets_join(sets, k, m);
+    for (uint32_t k = 0; is_piece(r, m) && r->matched_nodes[m] == r->parent_nodes[m] && k < m; k++)
+      if (is_piece(r, k) && r->matched_nodes[k] == r->matched_nodes[m]) sbfi_sets_join(sets, k, m);
 }
 
 /* --- Making one of several ----------------------------------------------------------------------------- */
@@ -292,7 +292,7 @@ bool sbfi_join_pieces(
     joining j = {r, sets, before, mesh_count, m, points};
     meshes[kept] = before[m];
     if (sizes[m] > 1 && !join_set(&j, &meshes[kept])) return false;
-    if (sizes[m] > 1) nodes[before[m].node].name = r->rig.scene->nodes[r->carriers[m]].name;
+    if (sizes[m] > 1) nodes[before[m].node].name = r->rig.scene->nodes[r->parent_nodes[m]].name;
     kept++;
   }
   *count = kept;

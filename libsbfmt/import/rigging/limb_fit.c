@@ -93,9 +93,9 @@ static double whole_cost(const sbfi_limb_fit *f) {
 }
 
 /* Cost of the whole body with the current limb rotated about its joint. */
-static double cost_of_turn(const sbfi_limb_fit *f, sbfi_d3 joint, const double rotation[4]) {
+static double rotation_cost(const sbfi_limb_fit *f, sbfi_d3 joint, const double rotation[4]) {
   sbfi_matrix turn = sbfi_rotation_about(rotation, joint);
-  sbfi_bone_line *lines = f->turned_lines;
+  sbfi_bone_line *lines = f->rotated_lines;
   uint32_t count = f->line_count;
   double sum = 0;
   for (uint32_t k = 0; k < count; k++) {
@@ -172,8 +172,8 @@ static double cost_of_angle(double fraction, const double rotation[4]) {
 }
 
 /* Tries all directions, then those around the best. */
-static double find_turn(const sbfi_limb_fit *f, sbfi_d3 joint, sbfi_d3 direction, double fraction,
-    bool in_plane, const sbfi_d3 *directions, double best_turn[4]) {
+static double find_rotation(const sbfi_limb_fit *f, sbfi_d3 joint, sbfi_d3 direction, double fraction,
+    bool in_plane, const sbfi_d3 *directions, double best_rotation[4]) {
   double best = INFINITY, step = 0.1;
   sbfi_d3 chosen = direction;
   for (uint32_t i = 0; i < DIRECTIONS + ROUNDS; i++) {
@@ -186,25 +186,25 @@ static double find_turn(const sbfi_limb_fit *f, sbfi_d3 joint, sbfi_d3 direction
     if (in_plane) to = sbfi_d3_normal((sbfi_d3){direction.x, to.y, to.z});
     if (sbfi_d3_dot(to, direction) < FARTHEST) continue;
     rotation_between(direction, to, rotation);
-    double cost = cost_of_turn(f, joint, rotation) + cost_of_angle(fraction, rotation);
+    double cost = rotation_cost(f, joint, rotation) + cost_of_angle(fraction, rotation);
     if (cost >= best) continue;
     best = cost;
     chosen = to;
-    memcpy(best_turn, rotation, sizeof rotation);
+    memcpy(best_rotation, rotation, sizeof rotation);
   }
   return best;
 }
 
-static double find_turn_of(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directions, double *before,
+static double find_rotation_of(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directions, double *before,
     double rotation[4], double *length) {
   static const double none[4] = {0, 0, 0, 1};
   sbfi_d3 direction;
   if (!measure_limb(f, bone, length, &direction)) return INFINITY;
   measure_others(f);
-  *before = cost_of_turn(f, head_of(f, bone), none);
+  *before = rotation_cost(f, head_of(f, bone), none);
   bool in_plane = f->is_middle && f->is_middle[bone];
   if (in_plane) direction = sbfi_d3_normal((sbfi_d3){0, direction.y, direction.z});
-  return find_turn(
+  return find_rotation(
       f, head_of(f, bone), direction, fraction_of(f, bone, *length), in_plane, directions, rotation);
 }
 
@@ -214,7 +214,7 @@ static bool is_child_better(
   double rotation[4], child_length, before;
   for (uint32_t b = bone + 1; b < f->bone_count; b++) {
     if (f->bones[b].parent != (int32_t)bone) continue;
-    double cost = find_turn_of(f, b, directions, &before, rotation, &child_length);
+    double cost = find_rotation_of(f, b, directions, &before, rotation, &child_length);
     if (isfinite(cost) && child_length >= CHAIN * length &&
         (before - cost >= TIE * saved || is_child_better(f, b, directions, child_length, saved)))
       return true;
@@ -223,18 +223,18 @@ static bool is_child_better(
 }
 
 /* Whether a limb of equal length on the other side has been rotated. */
-static bool has_turned_twin(const sbfi_limb_fit *f, uint32_t bone, double length) {
+static bool has_rotated_twin(const sbfi_limb_fit *f, uint32_t bone, double length) {
   int side = sbfi_name_side(f->bones[bone].name);
   for (uint32_t b = 0; side && b < f->bone_count; b++)
-    if (f->is_turned[b] && sbfi_name_side(f->bones[b].name) == -side &&
-        fabs(f->turned_lengths[b] / length - 1) < TWIN)
+    if (f->is_rotated[b] && sbfi_name_side(f->bones[b].name) == -side &&
+        fabs(f->rotated_lengths[b] / length - 1) < TWIN)
       return true;
   return false;
 }
 
-static bool is_below_turned(const sbfi_limb_fit *f, uint32_t bone) {
+static bool is_below_rotated(const sbfi_limb_fit *f, uint32_t bone) {
   for (int32_t b = (int32_t)bone; b != SBF_NONE; b = f->bones[b].parent)
-    if (f->is_turned[b]) return true;
+    if (f->is_rotated[b]) return true;
   return false;
 }
 
@@ -254,8 +254,8 @@ static void search_bone(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directio
   double rotation[4], length, before;
   sbfi_d3 direction;
   if (carries_limbs(f, bone)) return;
-  double cost = find_turn_of(f, bone, directions, &before, rotation, &length);
-  if (!isfinite(cost) || (as_twin && !has_turned_twin(f, bone, length))) return;
+  double cost = find_rotation_of(f, bone, directions, &before, rotation, &length);
+  if (!isfinite(cost) || (as_twin && !has_rotated_twin(f, bone, length))) return;
   double saved = before - cost, fraction = fraction_of(f, bone, length);
   double min_saving = as_twin ? GAIN_OF_TWIN : GAIN;
   if (f->is_middle && f->is_middle[bone]) min_saving = GAIN_IN_MIDDLE;
@@ -263,8 +263,8 @@ static void search_bone(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directio
       !measure_limb(f, bone, &length, &direction))
     return;
   turn(f, bone, rotation);
-  f->is_turned[bone] = true;
-  f->turned_lengths[bone] = length;
+  f->is_rotated[bone] = true;
+  f->rotated_lengths[bone] = length;
 }
 
 static void search(sbfi_limb_fit *f) {
@@ -272,10 +272,10 @@ static void search(sbfi_limb_fit *f) {
   sbfi_spread_directions(directions, DIRECTIONS);
   for (uint32_t b = 0; b < f->bone_count; b++) search_bone(f, b, directions, false);
   for (uint32_t b = 0; b < f->bone_count; b++)
-    if (!is_below_turned(f, b)) search_bone(f, b, directions, true);
+    if (!is_below_rotated(f, b)) search_bone(f, b, directions, true);
 }
 
-/* --- All joints of turned limbs ------------------------------------------------------------------------ */
+/* --- All joints of rotated limbs ----------------------------------------------------------------------- */
 
 /* Rotation relative to the parent: twice the sine of half the angle, which is identical on all machines. */
 static double angle_of(const sbfi_limb_fit *f, uint32_t bone, const sbfi_matrix *motion) {
@@ -292,8 +292,8 @@ static double cost_of_pose(const sbfi_limb_fit *f, uint32_t bone, double length,
   sbfi_matrix motion = sbfi_rotation_about(rotation, head_of(f, bone));
   motion = sbfi_matrix_multiply(&motion, &f->motions[bone]);
   double angle = angle_of(f, bone, &motion);
-  double per_radian = PER_RADIAN2 * angle + (f->is_turned[bone] ? 0 : PER_RADIAN_OF_LATER);
-  return cost_of_turn(f, head_of(f, bone), rotation) + fraction_of(f, bone, length) * per_radian * angle;
+  double per_radian = PER_RADIAN2 * angle + (f->is_rotated[bone] ? 0 : PER_RADIAN_OF_LATER);
+  return rotation_cost(f, head_of(f, bone), rotation) + fraction_of(f, bone, length) * per_radian * angle;
 }
 
 static void descend_joint(sbfi_limb_fit *f, uint32_t bone, double step) {
@@ -339,7 +339,7 @@ static void descend(sbfi_limb_fit *f) {
     for (int i = 0; i < DESCENTS; i++) {
       if (!f->is_fixed) descend_offset(f, 0.1 * step);
       for (uint32_t b = 0; b < f->bone_count; b++)
-        if (is_below_turned(f, b)) descend_joint(f, b, step);
+        if (is_below_rotated(f, b)) descend_joint(f, b, step);
     }
 }
 
@@ -367,7 +367,7 @@ static void straighten(sbfi_limb_fit *f, uint32_t bone) {
 /* Removes small rotations of later joints, which are noise. */
 static void straighten_later(sbfi_limb_fit *f) {
   for (uint32_t b = 0; b < f->bone_count; b++)
-    if (is_below_turned(f, b) && !f->is_turned[b] && angle_of(f, b, &f->motions[b]) < MIN_ANGLE)
+    if (is_below_rotated(f, b) && !f->is_rotated[b] && angle_of(f, b, &f->motions[b]) < MIN_ANGLE)
       straighten(f, b);
 }
 
@@ -433,15 +433,15 @@ bool sbfi_limb_fit_begin(sbfi_limb_fit *f, const sbfi_rigging *r, const sbfi_bon
   const sbf_bone_list bones = r->c->asset->bones;
   *f = (sbfi_limb_fit){.bones = bones.at, .bone_count = bones.count, .rest = *lines, .posed = *lines};
   f->motions = sbfi_arena_allocate(arena, (size_t)bones.count + 1, sizeof *f->motions);
-  f->is_turned = sbfi_arena_allocate(arena, (size_t)bones.count + 1, sizeof *f->is_turned);
-  f->turned_lengths = sbfi_arena_allocate(arena, (size_t)bones.count + 1, sizeof *f->turned_lengths);
+  f->is_rotated = sbfi_arena_allocate(arena, (size_t)bones.count + 1, sizeof *f->is_rotated);
+  f->rotated_lengths = sbfi_arena_allocate(arena, (size_t)bones.count + 1, sizeof *f->rotated_lengths);
   f->below = sbfi_arena_allocate(arena, (size_t)bones.count + 1, sizeof *f->below);
   f->line_indices =
       sbfi_arena_allocate(arena, (size_t)lines->count + bones.count + 1, sizeof *f->line_indices);
-  f->turned_lines = sbfi_arena_allocate(arena, (size_t)lines->count + bones.count + 1, sizeof *lines->at);
+  f->rotated_lines = sbfi_arena_allocate(arena, (size_t)lines->count + bones.count + 1, sizeof *lines->at);
   f->posed.at = sbfi_arena_allocate(arena, (size_t)lines->count + bones.count + 1, sizeof *lines->at);
-  if (!f->motions || !f->is_turned || !f->turned_lengths || !f->below || !f->line_indices ||
-      !f->turned_lines || !f->posed.at)
+  if (!f->motions || !f->is_rotated || !f->rotated_lengths || !f->below || !f->line_indices ||
+      !f->rotated_lines || !f->posed.at)
     return false;
   for (uint32_t b = 0; b < bones.count; b++) f->motions[b] = sbfi_matrix_identity();
   memcpy(f->posed.at, lines->at, lines->count * sizeof *lines->at);

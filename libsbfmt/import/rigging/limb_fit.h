@@ -9,20 +9,20 @@ typedef struct sbfi_limb_fit {
   const sbf_bone *bones;
   uint32_t bone_count;
   sbfi_bone_lines rest, posed;
-  bool *is_turned;        /* (bones) first bones of rotated limbs */
-  double *turned_lengths; /* (bones) lengths of these limbs */
-  sbfi_matrix *motions;   /* (bones) from rest, asset space; rotations and offsets */
-  sbfi_body_core core;    /* asset space */
-  double size;            /* of the input, its longest side */
-  sbfi_d3 offset;         /* offset of the whole rig */
-  bool is_fixed;          /* keeps the offset */
+  bool *is_rotated;        /* (bones) first bones of rotated limbs */
+  double *rotated_lengths; /* (bones) lengths of these limbs */
+  sbfi_matrix *motions;    /* (bones) from rest, asset space; rotations and offsets */
+  sbfi_body_core core;     /* asset space */
+  double size;             /* of the input, its longest side */
+  sbfi_d3 offset;          /* offset of the whole rig */
+  bool is_fixed;           /* keeps the offset */
   /* (bones) bones that rotate about x alone while the rig moves in that plane; or NULL */
   const bool *is_middle;
   double cost; /* of the current pose; 0: all bones are in the middle of all parts */
   /* State of the current limb. */
   bool *below;                        /* (bones) its first bone and descendants */
   uint32_t *line_indices, line_count; /* of its lines */
-  sbfi_bone_line *turned_lines;
+  sbfi_bone_line *rotated_lines;
   double others[SBFI_CORE_POINTS]; /* distances of core points to lines of other bones */
 } sbfi_limb_fit;
 

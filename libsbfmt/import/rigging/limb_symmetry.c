@@ -248,15 +248,16 @@ static bool pose_from_side(const sbfi_limb_symmetry *s, double plane, int side, 
     int32_t parent = f->bones[b].parent, twin = s->twins[b];
     memcpy(turns[b], none, sizeof none);
     f->motions[b] = half->motions[b];
-    f->is_turned[b] = half->is_turned[b];
+    f->is_rotated[b] = half->is_rotated[b];
     if (s->sides[b] == -side && twin == SBF_NONE && parent != SBF_NONE) f->motions[b] = f->motions[parent];
     if (s->sides[b] != -side || twin == SBF_NONE) continue;
     sbfi_matrix own = motion_to_twin(s, b, plane, parent == SBF_NONE ? none : turns[parent], turns[b]);
     sbfi_matrix motion = mirrored_motion(&half->motions[twin], plane);
     f->motions[b] = sbfi_matrix_multiply(&motion, &own);
     is_moved[b] = parent != SBF_NONE && is_moved[parent];
-    bool turns_itself = half->is_turned[twin] || 1 - turns[b][3] * turns[b][3] > 0.25 * MIN_ANGLE * MIN_ANGLE;
-    f->is_turned[b] = turns_itself && !is_moved[b];
+    bool turns_itself =
+        half->is_rotated[twin] || 1 - turns[b][3] * turns[b][3] > 0.25 * MIN_ANGLE * MIN_ANGLE;
+    f->is_rotated[b] = turns_itself && !is_moved[b];
     is_moved[b] = is_moved[b] || turns_itself;
   }
   sbfi_limb_fit_update_lines(f, half->offset);

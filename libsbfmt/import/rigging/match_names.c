@@ -57,8 +57,8 @@ static int32_t find_bone(const sbfi_rigging *r, const char *object) {
   return SBF_NONE;
 }
 
-static void carry(sbfi_rigging *r, uint32_t mesh, int32_t node) {
-  r->carriers[mesh] = node;
+static void set_parent_node(sbfi_rigging *r, uint32_t mesh, int32_t node) {
+  r->parent_nodes[mesh] = node;
   r->names[mesh] = r->rig.scene->nodes[node].name;
   for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++)
     r->sources[i] = SBFI_WEIGHTS_NAMED;
@@ -74,7 +74,7 @@ static void weigh_by_bones(sbfi_rigging *r) {
   if (named < 2 || 2 * named <= scene->mesh_count) return;
   for (uint32_t m = 0; m < scene->mesh_count; m++) {
     int32_t bone = find_bone(r, scene->nodes[scene->meshes[m].node].name);
-    if (bone != SBF_NONE) carry(r, m, bone);
+    if (bone != SBF_NONE) set_parent_node(r, m, bone);
   }
 }
 
@@ -92,7 +92,8 @@ void sbfi_weigh_by_name(sbfi_rigging *r) {
     double distance;
     int32_t other = find_namesake(r, m, &r->alignment.to_asset, &distance);
     if (other == SBF_NONE || rig->meshes[other].joint_count) continue;
-    if (r->c->bone_of_node[rig->meshes[other].node] != SBF_NONE) carry(r, m, rig->meshes[other].node);
+    if (r->c->bone_of_node[rig->meshes[other].node] != SBF_NONE)
+      set_parent_node(r, m, rig->meshes[other].node);
   }
 }
 

@@ -77,15 +77,15 @@ static uint32_t mesh_of_point(const sbfi_scene_surface *s, uint32_t point) {
 
 /* Mesh of the rig that contains all points of an object, if it has no skin: the object is attached like
  * it. */
-static int32_t common_carrier(const sbfi_rigging *r, uint32_t mesh, const uint32_t *matches) {
-  int32_t carrier = SBF_NONE;
+static int32_t common_node(const sbfi_rigging *r, uint32_t mesh, const uint32_t *matches) {
+  int32_t parent_node = SBF_NONE;
   for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++) {
     if (matches[i] == UINT32_MAX) return SBF_NONE;
     const sbfi_scene_mesh *on = &r->rig.scene->meshes[mesh_of_point(&r->rig, matches[i])];
-    if (on->joint_count || (carrier != SBF_NONE && carrier != on->node)) return SBF_NONE;
-    carrier = on->node;
+    if (on->joint_count || (parent_node != SBF_NONE && parent_node != on->node)) return SBF_NONE;
+    parent_node = on->node;
   }
-  return carrier;
+  return parent_node;
 }
 
 /* Whether an object's polygons face away from the rig's, after mirrored ones have been flipped. */
@@ -113,10 +113,10 @@ bool sbfi_weigh_by_position(sbfi_rigging *r, const sbfi_scene_surface *moved) {
                   &m.finder, r->rig.mesh.positions.at, r->rig.mesh.positions.count, m.within, &scratch);
   for (uint32_t i = 0; good && i < count; i++) matches[i] = find_match(&m, i);
   for (uint32_t mesh = 0; good && mesh < r->input.scene->mesh_count; mesh++) {
-    r->turned[mesh] = faces_away(r, moved, mesh, matches);
-    r->lies_on[mesh] = common_carrier(r, mesh, matches);
-    if (r->carriers[mesh] != SBF_NONE) continue;
-    r->carriers[mesh] = r->lies_on[mesh];
+    r->is_reversed[mesh] = faces_away(r, moved, mesh, matches);
+    r->matched_nodes[mesh] = common_node(r, mesh, matches);
+    if (r->parent_nodes[mesh] != SBF_NONE) continue;
+    r->parent_nodes[mesh] = r->matched_nodes[mesh];
     for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++) {
       if (matches[i] == UINT32_MAX || r->sources[i] != SBFI_WEIGHTS_NONE) continue;
       r->weights[i] = r->rig_weights[matches[i]];

@@ -158,7 +158,7 @@ sbfi_d3 sbfi_pose_fit_joint(const sbfi_pose_fit *f, uint32_t bone) {
   return sbfi_similarity_apply(&f->motions[bone], sbfi_d3_of(f->bones[bone].head));
 }
 
-bool sbfi_pose_fit_hangs_on(const sbfi_pose_fit *f, uint32_t bone, uint32_t above) {
+bool sbfi_pose_fit_is_descendant(const sbfi_pose_fit *f, uint32_t bone, uint32_t above) {
   int32_t up = (int32_t)bone;
   while (up != SBF_NONE && (uint32_t)up > above) up = f->bones[up].parent;
   return up == (int32_t)above;
@@ -167,7 +167,7 @@ bool sbfi_pose_fit_hangs_on(const sbfi_pose_fit *f, uint32_t bone, uint32_t abov
 void sbfi_pose_fit_rotate(sbfi_pose_fit *f, uint32_t bone, const double rotation[4]) {
   sbfi_matrix turn = sbfi_rotation_about(rotation, sbfi_pose_fit_joint(f, bone));
   for (uint32_t b = bone; b < f->bone_count; b++)
-    if (sbfi_pose_fit_hangs_on(f, b, bone)) f->motions[b] = sbfi_matrix_multiply(&turn, &f->motions[b]);
+    if (sbfi_pose_fit_is_descendant(f, b, bone)) f->motions[b] = sbfi_matrix_multiply(&turn, &f->motions[b]);
 }
 
 /* Axis of a rotation with a length of twice the sine of half the angle. */
@@ -198,8 +198,8 @@ sbfi_pose_gaps sbfi_pose_fit_gaps(const sbfi_pose_fit *f) {
   sbfi_pose_gaps found = {0};
   for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
     gaps[i] = f->input_samples[i].gap;
-    found.input_beside += (f->input_samples[i].gap > on) / (double)SBFI_POSE_SAMPLES;
-    found.rig_beside += (f->rig_samples[i].gap > on) / (double)SBFI_POSE_SAMPLES;
+    found.input_unmatched += (f->input_samples[i].gap > on) / (double)SBFI_POSE_SAMPLES;
+    found.rig_unmatched += (f->rig_samples[i].gap > on) / (double)SBFI_POSE_SAMPLES;
   }
   qsort(gaps, SBFI_POSE_SAMPLES, sizeof *gaps, compare);
   found.median = gaps[SBFI_POSE_SAMPLES / 2] / f->r->rig.size;

@@ -47,12 +47,12 @@ bool sbfi_pose_fit_move_input(sbfi_pose_fit *f);
 /* Rotates a bone with its descendants about its joint. `rotation` is about the origin. */
 void sbfi_pose_fit_rotate(sbfi_pose_fit *f, uint32_t bone, const double rotation[4]);
 sbfi_d3 sbfi_pose_fit_joint(const sbfi_pose_fit *f, uint32_t bone);
-bool sbfi_pose_fit_hangs_on(const sbfi_pose_fit *f, uint32_t bone, uint32_t above);
+bool sbfi_pose_fit_is_descendant(const sbfi_pose_fit *f, uint32_t bone, uint32_t above);
 
 /* Fractions of both surfaces without a match on the other, and the median gap of the input as a fraction
  * of the rig's size. */
 typedef struct sbfi_pose_gaps {
-  double input_beside, rig_beside, median;
+  double input_unmatched, rig_unmatched, median;
 } sbfi_pose_gaps;
 sbfi_pose_gaps sbfi_pose_fit_gaps(const sbfi_pose_fit *f);
 

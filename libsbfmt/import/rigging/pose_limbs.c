@@ -13,7 +13,7 @@ static const double FARTHEST = 0.0;
 /* Minimum reach of a limb as a fraction of the rig's size; maximum fraction of the samples in a limb. */
 static const double MIN_REACH = 0.06, MAX_LIMB = 0.5;
 /* Minimum fraction of a limb's samples without a match if its pose differs. */
-static const double BESIDE = 0.25;
+static const double MIN_UNMATCHED = 0.25;
 /* Minimum gain of a rotation. A full match of the limb counts 1, and covering an equal amount of unmatched
  * input counts 1. */
 static const double GAIN = 0.15;
@@ -27,8 +27,9 @@ typedef struct limb {
 
 typedef struct search {
   sbfi_pose_fit *f;
-  sbfi_d3 bare[SBFI_POSE_SAMPLES], bare_normals[SBFI_POSE_SAMPLES]; /* samples of the input without a match */
-  uint32_t bare_count;
+  sbfi_d3 unmatched[SBFI_POSE_SAMPLES],
+      unmatched_normals[SBFI_POSE_SAMPLES]; /* samples of the input without a match */
+  uint32_t unmatched_count;
   sbfi_d3 directions[DIRECTIONS];
 } search;
 
@@ -37,7 +38,7 @@ static double weight_below(const sbfi_pose_fit *f, const sbfi_surface_sample *s,
   for (int k = 0; k < 3; k++) {
     const sbfi_influences *of = &f->r->rig_weights[s->points[k]];
     for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && of->at[i].weight > 0; i++)
-      if (sbfi_pose_fit_hangs_on(f, (uint32_t)f->r->c->bone_of_node[of->at[i].node], bone))
+      if (sbfi_pose_fit_is_descendant(f, (uint32_t)f->r->c->bone_of_node[of->at[i].node], bone))
         sum += s->weights[k] * (double)of->at[i].weight;
   }
   return sum;
@@ -46,7 +47,7 @@ static double weight_below(const sbfi_pose_fit *f, const sbfi_surface_sample *s,
 /* Selects the samples that a bone moves; false if the limb has no differing pose. */
 static bool measure_limb(const search *s, uint32_t bone, limb *l) {
   const sbfi_pose_fit *f = s->f;
-  uint32_t of_limb[SBFI_POSE_SAMPLES], beside = 0;
+  uint32_t of_limb[SBFI_POSE_SAMPLES], away_count = 0;
   double reach = 0, size = f->r->rig.size;
   sbfi_d3 sum = {0, 0, 0};
   l->all = 0;
@@ -55,13 +56,13 @@ static bool measure_limb(const search *s, uint32_t bone, limb *l) {
     const sbfi_surface_sample *at = &f->rig_samples[i];
     if (weight_below(f, at, bone) < 0.5) continue;
     of_limb[l->all++] = i;
-    beside += at->gap > SBFI_ON_SURFACE * size;
+    away_count += at->gap > SBFI_ON_SURFACE * size;
     sbfi_d3 from = sbfi_d3_sub(at->position, l->joint);
     sum = sbfi_d3_add(sum, from);
     reach = fmax(reach, sbfi_d3_length(from));
   }
   if (l->all < 4 || l->all > MAX_LIMB * SBFI_POSE_SAMPLES || reach < MIN_REACH * size ||
-      beside < BESIDE * l->all)
+      away_count < MIN_UNMATCHED * l->all)
     return false;
   l->direction = sbfi_d3_normal(sum);
   l->count = l->all < LIMB_SAMPLES ? l->all : LIMB_SAMPLES;
@@ -73,7 +74,7 @@ static bool measure_limb(const search *s, uint32_t bone, limb *l) {
   return sbfi_d3_length(sum) > 0;
 }
 
-static sbfi_d3 turned(const double rotation[4], sbfi_d3 v) {
+static sbfi_d3 rotated(const double rotation[4], sbfi_d3 v) {
   double to[3];
   sbfi_quatd_rotate(rotation, (const double[3]){v.x, v.y, v.z}, to);
   return (sbfi_d3){to[0], to[1], to[2]};
@@ -87,23 +88,24 @@ static double squared_distance(sbfi_d3 a, sbfi_d3 b) {
 /* Score of a limb: fraction that matches the input, plus the newly covered amount relative to the limb. */
 static double evaluate(const search *s, const limb *l, const double rotation[4]) {
   const sbfi_pose_fit *f = s->f;
-  double cap = SBFI_MAX_GAP * f->r->rig.size, lies = 0, covers = 0, nearest_of_bare[SBFI_POSE_SAMPLES];
-  for (uint32_t i = 0; i < s->bare_count; i++) nearest_of_bare[i] = cap * cap;
+  double cap = SBFI_MAX_GAP * f->r->rig.size, lies = 0, covers = 0, nearest_unmatched[SBFI_POSE_SAMPLES];
+  for (uint32_t i = 0; i < s->unmatched_count; i++) nearest_unmatched[i] = cap * cap;
   for (uint32_t k = 0; k < l->count; k++) {
-    sbfi_d3 p = sbfi_d3_add(l->joint, turned(rotation, l->positions[k])), n = turned(rotation, l->normals[k]);
+    sbfi_d3 p = sbfi_d3_add(l->joint, rotated(rotation, l->positions[k])),
+            n = rotated(rotation, l->normals[k]);
     double nearest = cap * cap;
     for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
       double squared = squared_distance(f->input_samples[i].position, p);
       if (squared < nearest && sbfi_d3_dot(f->input_samples[i].normal, n) > 0.5) nearest = squared;
     }
-    for (uint32_t i = 0; i < s->bare_count; i++) {
-      double squared = squared_distance(s->bare[i], p);
-      if (squared < nearest_of_bare[i] && sbfi_d3_dot(s->bare_normals[i], n) > 0.5)
-        nearest_of_bare[i] = squared;
+    for (uint32_t i = 0; i < s->unmatched_count; i++) {
+      double squared = squared_distance(s->unmatched[i], p);
+      if (squared < nearest_unmatched[i] && sbfi_d3_dot(s->unmatched_normals[i], n) > 0.5)
+        nearest_unmatched[i] = squared;
     }
     lies += 1 - sqrt(nearest) / cap;
   }
-  for (uint32_t i = 0; i < s->bare_count; i++) covers += 1 - sqrt(nearest_of_bare[i]) / cap;
+  for (uint32_t i = 0; i < s->unmatched_count; i++) covers += 1 - sqrt(nearest_unmatched[i]) / cap;
   return lies / l->count + fmin(covers / l->all, 1);
 }
 
@@ -112,18 +114,18 @@ static void rotation_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
       (const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
 
-static void find_bare(search *s) {
+static void find_unmatched(search *s) {
   const sbfi_pose_fit *f = s->f;
-  s->bare_count = 0;
+  s->unmatched_count = 0;
   for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
     const sbfi_surface_sample *at = &f->input_samples[i];
     if (at->gap <= SBFI_ON_SURFACE * f->r->rig.size) continue;
-    s->bare[s->bare_count] = at->position;
-    s->bare_normals[s->bare_count++] = at->normal;
+    s->unmatched[s->unmatched_count] = at->position;
+    s->unmatched_normals[s->unmatched_count++] = at->normal;
   }
 }
 
-static bool find_turn(const search *s, const limb *l, double best_rotation[4]) {
+static bool find_rotation(const search *s, const limb *l, double best_rotation[4]) {
   static const double none[4] = {0, 0, 0, 1};
   double best = evaluate(s, l, none) + GAIN;
   bool found = false;
@@ -151,8 +153,8 @@ bool sbfi_pose_search_limbs(sbfi_pose_fit *f) {
   for (uint32_t b = 0; b < f->bone_count; b++) {
     double rotation[4];
     if (f->bones[b].parent == SBF_NONE || !measure_limb(s, b, l)) continue;
-    find_bare(s);
-    if (!find_turn(s, l, rotation)) continue;
+    find_unmatched(s);
+    if (!find_rotation(s, l, rotation)) continue;
     sbfi_pose_fit_rotate(f, b, rotation);
     if (!sbfi_pose_fit_update(f)) return false;
   }

@@ -12,7 +12,7 @@ enum { NAMED = 4 };
 
 /* As fractions of the rig's size: median distance of a piece from the rig's surface, or from its bones, at
  * which it is separated; distance beside a near piece; maximum size of a prop. */
-static const double FAR_FROM_SURFACE = 0.1, FAR_FROM_BONES = 0.2, BESIDE = 0.05, LARGE = 0.5;
+static const double FAR_FROM_SURFACE = 0.1, FAR_FROM_BONES = 0.2, MAX_GAP = 0.05, LARGE = 0.5;
 
 typedef struct piece {
   uint32_t points, far, number; /* counts; number within the object from 1, as in --shell */
@@ -78,7 +78,7 @@ static void add_point(separation_search *a, uint32_t point) {
  * some is never far. */
 static bool is_far(const separation_search *a, const piece *p) {
   bool large = a->by_surface && length_of(p) > LARGE * a->size;
-  return 2 * p->far > p->points && (p->nearest > BESIDE * a->size || large);
+  return 2 * p->far > p->points && (p->nearest > MAX_GAP * a->size || large);
 }
 
 static double gap_between(const piece *a, const piece *b) {
@@ -107,7 +107,7 @@ static bool find_separated(separation_search *a, sbfi_arena *arena) {
   for (uint32_t i = 0; i < near_count; i++) /* near_count grows */
     for (uint32_t k = 0; k < far_count; k++) {
       if (!far[k]->is_separated || (a->by_surface && length_of(far[k]) > LARGE * a->size)) continue;
-      if (gap_between(near[i], far[k]) > BESIDE * a->size) continue;
+      if (gap_between(near[i], far[k]) > MAX_GAP * a->size) continue;
       far[k]->is_separated = false;
       near[near_count++] = far[k];
     }
@@ -161,7 +161,8 @@ static void report_object(const separation_search *a, uint32_t mesh) {
 /* Whether the bone of a point was guessed. */
 static bool is_guessed(const separation_search *a, uint32_t point) {
   sbfi_weight_source source = (sbfi_weight_source)a->r->sources[point];
-  return source == SBFI_WEIGHTS_ATTACHED || source == SBFI_WEIGHTS_CARRIED || source == SBFI_WEIGHTS_COMPUTED;
+  return source == SBFI_WEIGHTS_ATTACHED || source == SBFI_WEIGHTS_TRANSFERRED ||
+         source == SBFI_WEIGHTS_COMPUTED;
 }
 
 bool sbfi_report_separated(const sbfi_rigging *r, const sbfi_scene_surface *moved, bool by_surface) {
@@ -179,7 +180,7 @@ bool sbfi_report_separated(const sbfi_rigging *r, const sbfi_scene_surface *move
     if (is_guessed(&a, i)) add_point(&a, i);
   if (good) good = find_separated(&a, &scratch);
   for (uint32_t m = 0; good && m < moved->scene->mesh_count; m++)
-    if (r->carriers[m] == SBF_NONE && !r->separated[m]) report_object(&a, m);
+    if (r->parent_nodes[m] == SBF_NONE && !r->separated[m]) report_object(&a, m);
   sbfi_arena_free(&scratch);
   return good;
 }

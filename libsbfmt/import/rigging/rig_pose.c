@@ -70,7 +70,7 @@ static sbfi_matrix motion_of_point(
     const sbfi_rigging *r, const sbfi_matrix *motions, uint32_t mesh, uint32_t i) {
   const sbfi_influences *of = &r->weights[r->input.mesh_starts[mesh] + i];
   sbfi_matrix sum = {.at[3][3] = 1};
-  if (r->carriers[mesh] != SBF_NONE) return motions[r->carriers[mesh]];
+  if (r->parent_nodes[mesh] != SBF_NONE) return motions[r->parent_nodes[mesh]];
   if (!(of->at[0].weight > 0)) return sbfi_matrix_identity();
   for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && of->at[k].weight > 0; k++)
     add_scaled(&sum, &motions[of->at[k].node], (double)of->at[k].weight);

@@ -21,7 +21,7 @@ static bool position_of(const sbfi_rigging *r, const sbfi_scene_mesh *mesh, sbfi
 static void add_node(const sbfi_rigging *r, uint32_t mesh, sbfi_scene_node *nodes, uint32_t at) {
   sbfi_scene_node *node = &nodes[at];
   sbfi_matrix to_parent;
-  *node = (sbfi_scene_node){.name = r->names[mesh], .parent = r->carriers[mesh]};
+  *node = (sbfi_scene_node){.name = r->names[mesh], .parent = r->parent_nodes[mesh]};
   if (!position_of(r, &r->input.scene->meshes[mesh], &node->world)) node->world = sbfi_matrix_identity();
   node->local = node->world;
   if (node->parent == SBF_NONE) return;
@@ -129,8 +129,9 @@ bool sbfi_rigged_scene_build(const sbfi_rigging *r) {
     bone_of_node[at] = nodes[at].parent == SBF_NONE ? SBF_NONE : bone_of_node[nodes[at].parent];
     meshes[m].node = (int32_t)at;
     meshes[m].joint_count = 0;
-    if (r->carriers[m] == SBF_NONE && has_weights(r, m) && !add_skin(r, m, nodes, &meshes[m])) return false;
-    if (r->turned[m] && !reverse_polygons(r, &meshes[m])) return false;
+    if (r->parent_nodes[m] == SBF_NONE && has_weights(r, m) && !add_skin(r, m, nodes, &meshes[m]))
+      return false;
+    if (r->is_reversed[m] && !reverse_polygons(r, &meshes[m])) return false;
     sbfi_matrix to_asset = sbfi_matrix_multiply(&c->rig_to_asset, &nodes[at].world);
     if (r->alignment.pose_worlds && !sbfi_pose_undo(r, m, &to_asset, &meshes[m])) return false;
   }

@@ -42,16 +42,16 @@ static bool prepare(sbfi_rigging *r) {
   r->rig_weights = sbfi_rig_weights(c, &r->rig);
   r->weights = sbfi_arena_allocate(&c->scratch, points + 1, sizeof *r->weights);
   r->sources = sbfi_arena_allocate(&c->scratch, points + 1, sizeof *r->sources);
-  r->carriers = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->carriers);
-  r->lies_on = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->lies_on);
+  r->parent_nodes = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->parent_nodes);
+  r->matched_nodes = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->matched_nodes);
   r->names = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->names);
   r->separated = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->separated);
-  r->turned = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->turned);
-  if (!r->rig_weights || !r->weights || !r->sources || !r->carriers || !r->lies_on || !r->names ||
-      !r->separated || !r->turned)
+  r->is_reversed = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->is_reversed);
+  if (!r->rig_weights || !r->weights || !r->sources || !r->parent_nodes || !r->matched_nodes || !r->names ||
+      !r->separated || !r->is_reversed)
     return false;
   for (uint32_t m = 0; m < meshes; m++) {
-    r->carriers[m] = r->lies_on[m] = SBF_NONE;
+    r->parent_nodes[m] = r->matched_nodes[m] = SBF_NONE;
     r->names[m] = c->scene->nodes[c->scene->meshes[m].node].name;
   }
   r->alignment = (sbfi_alignment){.to_asset = c->to_asset, .is_stated = true};
@@ -85,7 +85,7 @@ static void report_alignment(const sbfi_rigging *r) {
 static const char *const SOURCE_TEXTS[SBFI_WEIGHTS_SOURCES] = {[SBFI_WEIGHTS_NONE] = "have none",
     [SBFI_WEIGHTS_NAMED] = "from the names of objects or bones",
     [SBFI_WEIGHTS_MATCHED] = "from the same positions of the rig's mesh",
-    [SBFI_WEIGHTS_CARRIED] = "from the nearest surface of the rig's mesh",
+    [SBFI_WEIGHTS_TRANSFERRED] = "from the nearest surface of the rig's mesh",
     [SBFI_WEIGHTS_ATTACHED] = "from the bone that their piece touches",
     [SBFI_WEIGHTS_COMPUTED] = "computed from the bones",
     [SBFI_WEIGHTS_FROM_FILE] = "from the weights file"};
@@ -134,11 +134,11 @@ static void assign_nearest_bone(sbfi_rigging *r, const sbfi_scene_surface *moved
   if (to > from) middle = sbfi_d3_scale(middle, 1.0 / (to - from));
   const sbfi_scene_mesh *own = &r->input.scene->meshes[mesh];
   if (r->c->rig == r->c->scene && !own->joint_count && r->c->bone_of_node[own->node] != SBF_NONE) {
-    r->carriers[mesh] = own->node;
+    r->parent_nodes[mesh] = own->node;
     return;
   }
   int32_t bone = nearest_bone(r->c->asset, middle);
-  r->carriers[mesh] = (int32_t)r->c->node_of_bone[bone];
+  r->parent_nodes[mesh] = (int32_t)r->c->node_of_bone[bone];
   sbfi_convert_warn(r->c, SBF_CODE_RIG_SECTION_GUESSED,
       "the name of object '%s' matches no bone of the rig: it was assigned to the nearest, '%s'; if that is "
       "wrong, name it like its node in the rig",
@@ -154,10 +154,10 @@ static const double ALIKE_MEDIAN = 0.01;
 /* Bounds for an edited version of the rig's mesh: maximum median distance as a fraction of the size,
  * maximum fraction of the surface without a match. Outside them it may be another character's mesh, unless
  * at least this fraction of points equals the rig's. */
-static const double SAME_MEDIAN = 0.0015, SAME_BESIDE = 0.02, SAME_MATCHED = 0.5;
+static const double SAME_MEDIAN = 0.0015, MAX_AWAY = 0.02, SAME_MATCHED = 0.5;
 /* Minimum fraction of points near the rig's surface for a transfer of weights; the same if the caller
  * requests it. */
-static const double MIN_BESIDE = 0.6, MIN_FORCED = 0.25;
+static const double MIN_NEAR = 0.6, MIN_FORCED = 0.25;
 /* Minimum fraction of points at the rig's points for --weights match. */
 static const double MIN_MATCHED = 0.999;
 /* Fraction of matched points from which no other pose is tried; minimum improvement by another pose. */
@@ -234,7 +234,7 @@ static bool rig_has_weights(const sbfi_rigging *r) {
 
 static bool is_transferred(const sbfi_rigging *r, uint32_t point) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
-    if (point < r->input.mesh_starts[m + 1]) return r->carriers[m] != SBF_NONE;
+    if (point < r->input.mesh_starts[m + 1]) return r->parent_nodes[m] != SBF_NONE;
   return false;
 }
 
@@ -267,9 +267,9 @@ static sbf_status weigh_rest(sbfi_rigging *r, const sbfi_scene_surface *moved, w
 }
 
 /* Transfers weights by proximity if the input is similar to the rig's mesh or the caller requests it. */
-static sbf_status weigh_beside(
+static sbf_status weigh_by_surface(
     sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool alike) {
-  double fraction = 0, min = mode == MODE_TRANSFER ? MIN_FORCED : MIN_BESIDE;
+  double fraction = 0, min = mode == MODE_TRANSFER ? MIN_FORCED : MIN_NEAR;
   if ((mode != MODE_ANY && mode != MODE_TRANSFER) || (mode == MODE_ANY && !alike) || !count_open(r))
     return SBF_OK;
   if (rig_has_weights(r) && !sbfi_weigh_by_nearness(r, moved, min, &fraction))
@@ -287,7 +287,7 @@ static sbf_status refuse_nameless(const sbfi_rigging *r) {
 
 static bool has_named_objects(const sbfi_rigging *r) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
-    if (r->carriers[m] != SBF_NONE) return true;
+    if (r->parent_nodes[m] != SBF_NONE) return true;
   return false;
 }
 
@@ -328,7 +328,7 @@ static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   if (*alike) return SBF_OK;
   r->alignment = stated;
   r->rig = bound;
-  if (isfinite(error)) r->unlike = error;
+  if (isfinite(error)) r->mean_gap = error;
   return mode == MODE_TRANSFER || has_named_objects(r) ? SBF_OK : sbfi_align_by_bones(r);
 }
 
@@ -336,7 +336,7 @@ static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
 static bool is_on_rig(const sbfi_rigging *r, const sbfi_surface_sample *s) {
   for (int k = 0; k < 3; k++) {
     uint8_t source = r->sources[s->points[k]];
-    if (source != SBFI_WEIGHTS_CARRIED && source != SBFI_WEIGHTS_MATCHED) return false;
+    if (source != SBFI_WEIGHTS_TRANSFERRED && source != SBFI_WEIGHTS_MATCHED) return false;
   }
   return true;
 }
@@ -351,7 +351,7 @@ static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
   sbfi_arena scratch;
   sbfi_pose_fit f;
   double gaps[SBFI_POSE_SAMPLES], size = r->rig.size;
-  uint32_t count = 0, beside = 0;
+  uint32_t count = 0, away_count = 0;
   if (mode != MODE_ANY || r->c->rig == r->c->scene || r->alignment.matched > SAME_MATCHED ||
       !r->rig.mesh.polygon_sizes.count || !r->input.mesh.polygon_sizes.count)
     return true;
@@ -362,16 +362,16 @@ static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
     if (!is_on_rig(r, &f.input_samples[i])) continue;
     bool found = sbfi_surface_nearest(&f.posed_finder, f.input_samples[i].position, NULL, size, &near);
     gaps[count] = found ? near.distance / size : 1;
-    beside += gaps[count++] > SBFI_ON_SURFACE;
+    away_count += gaps[count++] > SBFI_ON_SURFACE;
   }
   qsort(gaps, count, sizeof *gaps, compare);
   double median = count ? gaps[count / 2] : 0;
-  if (median > SAME_MEDIAN || beside > SAME_BESIDE * SBFI_POSE_SAMPLES)
+  if (median > SAME_MEDIAN || away_count > MAX_AWAY * SBFI_POSE_SAMPLES)
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
         "the mesh of %s resembles the input, but half of the input's surface is farther from it than %.2g %% "
         "of its size, and %.0f %% of it farther than %.2g %%: it may belong to another character; use the "
         "rig of this character, or --weights transfer if it is right",
-        r->rig.scene->file, 100 * median, 100.0 * beside / SBFI_POSE_SAMPLES, 100 * SBFI_ON_SURFACE);
+        r->rig.scene->file, 100 * median, 100.0 * away_count / SBFI_POSE_SAMPLES, 100 * SBFI_ON_SURFACE);
   sbfi_pose_fit_end(&f);
   sbfi_arena_free(&scratch);
   return good;
@@ -382,21 +382,21 @@ static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
 static const double MANY_ATTACHED = 0.2;
 
 static void warn_of_attached(const sbfi_rigging *r, weights_mode mode) {
-  uint32_t count = r->input.mesh.positions.count, beside = 0;
+  uint32_t count = r->input.mesh.positions.count, away_count = 0;
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
     uint32_t attached = 0, matched = 0;
     for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++) {
       attached += r->sources[i] == SBFI_WEIGHTS_ATTACHED;
       matched += r->sources[i] == SBFI_WEIGHTS_MATCHED;
     }
-    if (matched) beside += attached;
+    if (matched) away_count += attached;
   }
-  if (mode != MODE_ANY || beside <= MANY_ATTACHED * count) return;
+  if (mode != MODE_ANY || away_count <= MANY_ATTACHED * count) return;
   sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
       "%u of %u points are away from the mesh of %s, and each of their pieces moves rigidly with the bone "
       "that it touches: if they are limbs in another pose, use an input in the pose of the rig's mesh; if "
       "they are right, use --weights transfer",
-      beside, count, r->rig.scene->file);
+      away_count, count, r->rig.scene->file);
 }
 
 static sbf_status weigh_objects(
@@ -406,7 +406,7 @@ static sbf_status weigh_objects(
     return sbfi_convert_no_memory(r->c);
   if (mode == MODE_MATCH && count_open(r) > (1 - MIN_MATCHED) * r->input.mesh.positions.count)
     return refuse_match(r);
-  sbf_status status = weigh_beside(r, moved, mode, alike);
+  sbf_status status = weigh_by_surface(r, moved, mode, alike);
   return status == SBF_OK ? weigh_rest(r, moved, mode) : status;
 }
 
@@ -430,7 +430,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   status = weigh_objects(r, &moved, mode, by_points, alike);
   if (status != SBF_OK) return status;
   for (uint32_t m = 0; m < c->scene->mesh_count; m++)
-    if (r->carriers[m] == SBF_NONE) assign_nearest_bone(r, &moved, m);
+    if (r->parent_nodes[m] == SBF_NONE) assign_nearest_bone(r, &moved, m);
   report_weights(r);
   if (alike && !warn_of_another(r, mode)) return sbfi_convert_no_memory(c);
   warn_of_attached(r, mode);

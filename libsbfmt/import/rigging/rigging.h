@@ -43,12 +43,12 @@ typedef struct sbfi_scene_surface {
 /* Source of a point's weights. */
 typedef enum sbfi_weight_source {
   SBFI_WEIGHTS_NONE,
-  SBFI_WEIGHTS_NAMED,     /* its object has the name of a node of the rig */
-  SBFI_WEIGHTS_MATCHED,   /* a point of the rig's meshes is at this position */
-  SBFI_WEIGHTS_CARRIED,   /* transferred from the nearest surface of the rig */
-  SBFI_WEIGHTS_ATTACHED,  /* attached piece: no surface of the rig near it has a similar normal */
-  SBFI_WEIGHTS_COMPUTED,  /* computed from the bones alone */
-  SBFI_WEIGHTS_FROM_FILE, /* read from --weights FILE */
+  SBFI_WEIGHTS_NAMED,       /* its object has the name of a node of the rig */
+  SBFI_WEIGHTS_MATCHED,     /* a point of the rig's meshes is at this position */
+  SBFI_WEIGHTS_TRANSFERRED, /* transferred from the nearest surface of the rig */
+  SBFI_WEIGHTS_ATTACHED,    /* attached piece: no surface of the rig near it has a similar normal */
+  SBFI_WEIGHTS_COMPUTED,    /* computed from the bones alone */
+  SBFI_WEIGHTS_FROM_FILE,   /* read from --weights FILE */
   SBFI_WEIGHTS_SOURCES
 } sbfi_weight_source;
 
@@ -73,15 +73,15 @@ typedef struct sbfi_rigging {
   sbfi_alignment alignment;
   /* Mean distance between the input and the rig's weighted meshes as a fraction of the rig's size; 0 if
    * they are similar or the rig has none. */
-  double unlike;
+  double mean_gap;
   sbfi_influences *weights; /* (input points) */
   uint8_t *sources;         /* (input points) sbfi_weight_source */
   /* (input meshes) node of the rig that moves the whole mesh without a skin, or SBF_NONE */
-  int32_t *carriers;
-  int32_t *lies_on;   /* (input meshes) node of the rig's unskinned mesh that contains all its points */
-  const char **names; /* (input meshes) */
-  bool *separated;    /* (input meshes) whether it was reported as separated from the rig */
-  bool *turned;       /* (input meshes) its polygons face away from those of the rig */
+  int32_t *parent_nodes;
+  int32_t *matched_nodes; /* (input meshes) node of the rig's unskinned mesh that contains all its points */
+  const char **names;     /* (input meshes) */
+  bool *separated;        /* (input meshes) whether it was reported as separated from the rig */
+  bool *is_reversed;      /* (input meshes) its polygons face away from those of the rig */
 } sbfi_rigging;
 
 /* Allocates from the conversion's scratch; false if memory runs out. */

@@ -41,7 +41,8 @@ typedef struct sbfi_usual_unit {
 enum { SBFI_USUAL_UNITS = 12 };
 extern const sbfi_usual_unit sbfi_usual_units[SBFI_USUAL_UNITS];
 
-/* Description of a transform for a message: "scaled by 0.01 (centimetres), turned by -90 degrees about x". */
+/* Description of a transform for a message: "scaled by 0.01 (centimetres), rotated by -90 degrees about x".
+ */
 typedef struct sbfi_similarity_text {
   char at[256];
 } sbfi_similarity_text;

@@ -10,7 +10,7 @@
 #include "motion/retargeting.h"
 
 /* Objects farther away than this fraction of the rig's size are not part of the character. */
-static const double BESIDE = 0.15;
+static const double MARGIN = 0.15;
 /* Objects larger than this fraction of the rig's size may be another character, so they must contain a
  * bone. */
 static const double LARGE = 0.6;
@@ -57,7 +57,7 @@ static double size_of(const box *b) {
 }
 
 /* Whether a joint is within a margin of the object's box; a hat has a joint beside it. */
-static bool is_beside_bones(const sbf_bone_list bones, const box *object, double margin) {
+static bool is_near_bones(const sbf_bone_list bones, const box *object, double margin) {
   for (uint32_t b = 0; b < bones.count; b++)
     if (holds(object, sbfi_d3_of(bones.at[b].head), margin)) return true;
   return false;
@@ -77,8 +77,8 @@ static void report_separated(const sbfi_rigging *r, const sbfi_scene_surface *mo
       widen(&object, moved->mesh.positions.at[i]);
       count += r->sources[i] == SBFI_WEIGHTS_COMPUTED;
     }
-    double margin = size_of(&object) < LARGE * size ? BESIDE * size : 0;
-    if (!count || is_beside_bones(bones, &object, margin)) continue;
+    double margin = size_of(&object) < LARGE * size ? MARGIN * size : 0;
+    if (!count || is_near_bones(bones, &object, margin)) continue;
     r->separated[m] = true;
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OBJECT_APART,
         "no bone of %s is inside or near the object '%.60s': if it is another character, convert it "
@@ -123,12 +123,14 @@ static sbf_status check_idle_bones(const sbfi_rigging *r, const sbfi_weights *co
 /* Many bones span most of their body. A few may not, but then they are near its middle. A rig of another
  * character covers a part of the input, or is off the middle of most of it. */
 enum { SEVERAL = 10 };
-static const double MIN_EXTENT = 0.75, MIN_BESIDE = 0.9, MIN_OF_FEW = 0.4, MAX_BESIDE = 2.2, FAR_BESIDE = 3;
+static const double MIN_EXTENT = 0.75, MIN_FAR_EXTENT = 0.9, MIN_OF_FEW = 0.4, MAX_DISTANCE = 2.2,
+                    MAX_DISTANCE_OF_SEVERAL = 3;
 
 static bool is_of_another(const sbfi_weights_figures *f) {
   bool several = f->deforming_count >= SEVERAL;
   return f->bone_extent < (several ? MIN_EXTENT : MIN_OF_FEW) ||
-         (f->bone_extent < MIN_BESIDE && f->median_distance > (several ? FAR_BESIDE : MAX_BESIDE));
+         (f->bone_extent < MIN_FAR_EXTENT &&
+             f->median_distance > (several ? MAX_DISTANCE_OF_SEVERAL : MAX_DISTANCE));
 }
 
 static sbf_status check_extent(const sbfi_rigging *r, const sbfi_weights *computed) {
@@ -158,16 +160,16 @@ static bool is_scaled_by_unit(const sbfi_rigging *r) {
 }
 
 /* Whether objects match the rig's by name: they aligned the whole input. */
-static bool has_carriers(const sbfi_rigging *r) {
+static bool has_parent_nodes(const sbfi_rigging *r) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
-    if (r->carriers[m] != SBF_NONE) return true;
+    if (r->parent_nodes[m] != SBF_NONE) return true;
   return false;
 }
 
 /* The bones of a fish also fit a caterpillar of equal length, so a rig with a mesh must agree in size. If
  * the units agree it may be intended, as for two characters by one author. */
 static sbf_status check_other_mesh(const sbfi_rigging *r) {
-  if (!(r->unlike > 0) || r->c->options->weights || has_carriers(r)) return SBF_OK;
+  if (!(r->mean_gap > 0) || r->c->options->weights || has_parent_nodes(r)) return SBF_OK;
   if (is_scaled_by_unit(r)) {
     char lie[60] = ""; /* empty if the rig has no two joints to interpolate */
     if (r->alignment.inside > 0)
@@ -176,7 +178,7 @@ static sbf_status check_other_mesh(const sbfi_rigging *r) {
         "the mesh of %s is not like the input: after alignment, they are %.0f %% of the mesh's size apart; "
         "its bones%s may belong to another character; use the rig of this character, or --weights compute if "
         "it is right",
-        r->rig.scene->file, 100 * r->unlike, lie);
+        r->rig.scene->file, 100 * r->mean_gap, lie);
     return SBF_OK;
   }
   if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
@@ -184,7 +186,7 @@ static sbf_status check_other_mesh(const sbfi_rigging *r) {
       "the mesh of %s is not like the input: after alignment, they are %.0f %% of the mesh's size apart; its "
       "bones are inside the input only if that is scaled by %.3g, which is not a usual unit; use the rig of "
       "this character, or state --unit, or --weights compute to use these bones",
-      r->rig.scene->file, 100 * r->unlike, sbfi_similarity_scale(&r->alignment.to_asset));
+      r->rig.scene->file, 100 * r->mean_gap, sbfi_similarity_scale(&r->alignment.to_asset));
 }
 
 sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved) {

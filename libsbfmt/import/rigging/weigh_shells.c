@@ -5,11 +5,11 @@
 #include "base/union_find.h"
 #include "import/rigging/weigh.h"
 
-typedef struct shell_wish {
+typedef struct shell_assignment {
   int32_t mesh;    /* of the input */
   uint32_t number; /* shell number from 1; 0: all */
   int32_t node;    /* of the rig */
-} shell_wish;
+} shell_assignment;
 
 static int32_t find_object(const sbfi_rigging *r, const char *name, size_t length) {
   const sbfi_scene *scene = r->input.scene;
@@ -21,25 +21,27 @@ static int32_t find_object(const sbfi_rigging *r, const char *name, size_t lengt
 }
 
 /* OBJECT or OBJECT#NUMBER; the object's name may contain the sign. */
-static sbf_status read_wish(const sbfi_rigging *r, const sbf_convert_pin *from, shell_wish *wish) {
+static sbf_status read_assignment(
+    const sbfi_rigging *r, const sbf_convert_pin *from, shell_assignment *assignment) {
   const sbf_bone_list bones = r->c->asset->bones;
   const char *sign = strrchr(from->group, '#');
   char *end = NULL;
-  *wish = (shell_wish){find_object(r, from->group, strlen(from->group)), 0, SBF_NONE};
-  if (wish->mesh == SBF_NONE && sign) {
+  *assignment = (shell_assignment){find_object(r, from->group, strlen(from->group)), 0, SBF_NONE};
+  if (assignment->mesh == SBF_NONE && sign) {
     unsigned long number = strtoul(sign + 1, &end, 10);
     if (end != sign + 1 && !*end && number > 0 && number < UINT32_MAX) {
-      wish->mesh = find_object(r, from->group, (size_t)(sign - from->group));
-      wish->number = (uint32_t)number;
+      assignment->mesh = find_object(r, from->group, (size_t)(sign - from->group));
+      assignment->number = (uint32_t)number;
     }
   }
-  if (wish->mesh == SBF_NONE)
+  if (assignment->mesh == SBF_NONE)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
         "no object of %s has the name '%s' of --shell: name an object, or a shell of it as OBJECT#NUMBER",
         r->input.scene->file, from->group);
-  for (uint32_t b = 0; b < bones.count && wish->node == SBF_NONE; b++)
-    if (from->bone && strcmp(bones.at[b].name, from->bone) == 0) wish->node = (int32_t)r->c->node_of_bone[b];
-  if (wish->node == SBF_NONE)
+  for (uint32_t b = 0; b < bones.count && assignment->node == SBF_NONE; b++)
+    if (from->bone && strcmp(bones.at[b].name, from->bone) == 0)
+      assignment->node = (int32_t)r->c->node_of_bone[b];
+  if (assignment->node == SBF_NONE)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
         "--shell: no bone of the rig has the name '%s', so it cannot move '%s'", from->bone ? from->bone : "",
         from->group);
@@ -55,22 +57,23 @@ static void assign_point(sbfi_rigging *r, uint32_t point, int32_t node) {
 
 /* Assigns the requested points; numbers shells by their first points. */
 static sbf_status apply_request(
-    sbfi_rigging *r, const shell_wish *wish, const char *name, uint32_t *parents) {
-  uint32_t from = r->input.mesh_starts[wish->mesh], to = r->input.mesh_starts[wish->mesh + 1], shells = 0;
-  if (r->carriers[wish->mesh] != SBF_NONE && wish->number)
+    sbfi_rigging *r, const shell_assignment *assignment, const char *name, uint32_t *parents) {
+  uint32_t from = r->input.mesh_starts[assignment->mesh], to = r->input.mesh_starts[assignment->mesh + 1],
+           shells = 0;
+  if (r->parent_nodes[assignment->mesh] != SBF_NONE && assignment->number)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
         "'%s' is part of an object that moves rigidly with a bone of its name: rename it, or assign the "
         "whole object",
         name);
-  if (r->carriers[wish->mesh] != SBF_NONE) r->carriers[wish->mesh] = wish->node;
+  if (r->parent_nodes[assignment->mesh] != SBF_NONE) r->parent_nodes[assignment->mesh] = assignment->node;
   uint32_t wanted = UINT32_MAX;
   for (uint32_t i = from; i < to; i++)
-    if (sbfi_set_root(parents, i) == i && ++shells == wish->number) wanted = i;
-  if (wish->number > shells)
+    if (sbfi_set_root(parents, i) == i && ++shells == assignment->number) wanted = i;
+  if (assignment->number > shells)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
         "there is no shell '%s': the object has %u shells", name, shells);
   for (uint32_t i = from; i < to; i++)
-    if (!wish->number || sbfi_set_root(parents, i) == wanted) assign_point(r, i, wish->node);
+    if (!assignment->number || sbfi_set_root(parents, i) == wanted) assign_point(r, i, assignment->node);
   return SBF_OK;
 }
 
@@ -87,9 +90,9 @@ sbf_status sbfi_weigh_shells(sbfi_rigging *r) {
       sbfi_sets_join(parents, corners[0], corners[k]);
   sbf_status status = SBF_OK;
   for (uint32_t i = 0; status == SBF_OK && i < options->shell_count; i++) {
-    shell_wish wish;
-    status = read_wish(r, &options->shells[i], &wish);
-    if (status == SBF_OK) status = apply_request(r, &wish, options->shells[i].group, parents);
+    shell_assignment assignment;
+    status = read_assignment(r, &options->shells[i], &assignment);
+    if (status == SBF_OK) status = apply_request(r, &assignment, options->shells[i].group, parents);
   }
   return status;
 }

@@ -147,7 +147,7 @@ static int32_t common_ancestor(const sbfi_assembly *a, uint32_t *bones_below) {
  * below the common ancestor as bones if at least two of them carry a mesh. */
 static void mark_rigid_rig(sbfi_assembly *a) {
   sbfi_scene_node *nodes = a->nodes;
-  uint32_t count = a->scene->node_count, carriers = 0;
+  uint32_t count = a->scene->node_count, mesh_nodes = 0;
   int32_t last = SBF_NONE;
   for (uint32_t i = 0; i < count; i++) {
     if (nodes[i].is_bone) return;
@@ -155,10 +155,10 @@ static void mark_rigid_rig(sbfi_assembly *a) {
     if (!a->raw->nodes[a->old_from_new[i]].mesh_count || parent == SBF_NONE || parent == last) continue;
     bool on_mesh = a->raw->nodes[a->old_from_new[parent]].mesh_count > 0;
     if (on_mesh || nodes[parent].parent == SBF_NONE) continue;
-    carriers++;
+    mesh_nodes++;
     last = parent;
   }
-  for (uint32_t i = 0; i < count && carriers >= 2; i++)
+  for (uint32_t i = 0; i < count && mesh_nodes >= 2; i++)
     nodes[i].is_bone = nodes[i].parent != SBF_NONE && !a->raw->nodes[a->old_from_new[i]].mesh_count;
 }
 
@@ -186,7 +186,7 @@ static bool may_be_armature(const char *format) {
 
 /* A file without meshes and declared joints: at least two nodes form a skeleton, from the first that is
  * not a frame around it. Frames are the root that importers add and an armature's own node. */
-static void mark_bare_skeleton(sbfi_assembly *a) {
+static void mark_unskinned_skeleton(sbfi_assembly *a) {
   sbfi_scene_node *nodes = a->nodes;
   uint32_t count = 0;
   for (uint32_t i = 0; i < a->scene->node_count; i++) {
@@ -212,7 +212,7 @@ static bool mark_bones(sbfi_assembly *a) {
   for (uint32_t i = 0; i < count; i++)
     if (a->raw->nodes[a->old_from_new[i]].kind == SBFI_STREAM_BONE) declared = nodes[i].is_bone = true;
   if (is_gltf(format)) mark_rigid_rig(a);
-  if (!a->raw->mesh_count && may_be_armature(format) && !has_bones(a)) mark_bare_skeleton(a);
+  if (!a->raw->mesh_count && may_be_armature(format) && !has_bones(a)) mark_unskinned_skeleton(a);
   if (is_gltf(format) || strcmp(format, "fbx") == 0 || (declared && !a->raw->mesh_count)) return true;
   uint32_t *bones_below = sbfi_arena_allocate(&a->scratch, count, sizeof *bones_below);
   if (!bones_below) return false;

@@ -53,7 +53,7 @@ static double distance(const sbfi_matrix *a, const sbfi_matrix *b) {
 }
 
 /* Largest sine of the angle between corresponding axes. */
-static double turned(const sbfi_matrix *a, const sbfi_matrix *b) {
+static double angle_between(const sbfi_matrix *a, const sbfi_matrix *b) {
   double max = 0;
   for (int axis = 0; axis < 3; axis++) {
     double aa = 0, bb = 0, ab = 0;
@@ -70,7 +70,7 @@ static double turned(const sbfi_matrix *a, const sbfi_matrix *b) {
 }
 
 static double deviation(const sbfi_scene *scene, const sbfi_matrix *worlds) {
-  double max_moved = 0, max_turned = 0, size = 0;
+  double max_moved = 0, max_angle = 0, size = 0;
   const sbfi_matrix *first = NULL;
   for (uint32_t i = 0; i < scene->node_count; i++) {
     const sbfi_matrix *rest = &scene->nodes[i].world;
@@ -78,9 +78,9 @@ static double deviation(const sbfi_scene *scene, const sbfi_matrix *worlds) {
     if (!first) first = rest;
     size = fmax(size, distance(first, rest));
     max_moved = fmax(max_moved, distance(&worlds[i], rest));
-    max_turned = fmax(max_turned, turned(&worlds[i], rest));
+    max_angle = fmax(max_angle, angle_between(&worlds[i], rest));
   }
-  return size > 0 ? fmax(max_turned, max_moved / size) : max_turned;
+  return size > 0 ? fmax(max_angle, max_moved / size) : max_angle;
 }
 
 bool sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds, double *difference) {

@@ -109,7 +109,7 @@ static sbf_status repair(sbfi_tet_mesh *mesh, sbfi_key_set *known, const char *p
     }
     *seen = (uint32_t)kept;
     if (volume < 0) {
-      mesh->turned_count++;
+      mesh->inverted_count++;
       whole.at[2] = p[3];
       whole.at[3] = p[2];
     }

@@ -7,13 +7,13 @@
 
 typedef struct sbfi_tet_mesh {
   sbf_allocator allocator;
-  const char *format;    /* "tetgen", "gmsh", "vtk", "vtu", "physx tet" */
-  sbfi_array points;     /* sbf_vec3, in the file's unit, axes and order */
-  sbfi_array tetrahedra; /* sbf_uint4 */
-  uint32_t turned_count; /* inverted in the file: two corners were swapped */
-  uint32_t flat_count;   /* without volume: dropped */
-  uint32_t repeat_count; /* duplicates of another's four points: dropped */
-  uint32_t passed_over;  /* skipped elements of other kinds */
+  const char *format;      /* "tetgen", "gmsh", "vtk", "vtu", "physx tet" */
+  sbfi_array points;       /* sbf_vec3, in the file's unit, axes and order */
+  sbfi_array tetrahedra;   /* sbf_uint4 */
+  uint32_t inverted_count; /* inverted in the file: two corners were swapped */
+  uint32_t flat_count;     /* without volume: dropped */
+  uint32_t repeat_count;   /* duplicates of another's four points: dropped */
+  uint32_t passed_over;    /* skipped elements of other kinds */
 } sbfi_tet_mesh;
 
 /* Whether a path has a supported extension: .node .ele .msh .vtk .vtu .tet */

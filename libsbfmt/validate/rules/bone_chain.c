@@ -2,7 +2,7 @@
 
 #include "mechanics/vector.h"
 
-bool sbfi_bone_hangs_on(const sbf_asset *asset, int32_t bone, int32_t above) {
+bool sbfi_bone_is_descendant(const sbf_asset *asset, int32_t bone, int32_t above) {
   while (bone >= 0 && bone != above) bone = asset->bones.at[bone].parent;
   return bone >= 0;
 }
@@ -15,7 +15,7 @@ double sbfi_distance_from_line(const sbf_asset *asset, int32_t root, int32_t end
 }
 
 sbfi_bone_run sbfi_bone_run_of(const sbf_asset *asset, int32_t root, int32_t end) {
-  sbfi_bone_run run = {sbfi_bone_hangs_on(asset, end, root), 1, 0, 0, 0};
+  sbfi_bone_run run = {sbfi_bone_is_descendant(asset, end, root), 1, 0, 0, 0};
   const sbf_bone *bones = asset->bones.at;
   if (!run.whole) return run;
   for (int32_t bone = end; bone != root; bone = bones[bone].parent) {

@@ -5,7 +5,7 @@
 #include "sbfmt/model.h"
 
 /* Whether `bone` is `above` or a descendant of it. */
-bool sbfi_bone_hangs_on(const sbf_asset *asset, int32_t bone, int32_t above);
+bool sbfi_bone_is_descendant(const sbf_asset *asset, int32_t bone, int32_t above);
 
 typedef struct sbfi_bone_run {
   bool whole;         /* the end is a descendant of the root */

@@ -20,7 +20,7 @@ static void find_repeated(sbfi_validation *v, const bone_list *l) {
 static void check_order(sbfi_validation *v, const bone_list *l) {
   for (uint32_t i = 1; i < l->bones.count; i++) {
     int32_t above = (int32_t)l->bones.at[i - 1], below = (int32_t)l->bones.at[i];
-    if (above != below && !sbfi_bone_hangs_on(v->asset, below, above))
+    if (above != below && !sbfi_bone_is_descendant(v->asset, below, above))
       sbfi_found(v, SBF_CODE_CHAIN_BROKEN, sbfi_path_of("%s/bones", l->path).text, i,
           "'%s' follows '%s' in %s '%s' but is not its child", sbfi_bone_label(v->asset, l->bones.at[i]),
           sbfi_bone_label(v->asset, l->bones.at[i - 1]), l->what, l->name);

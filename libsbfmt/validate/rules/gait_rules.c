@@ -15,7 +15,7 @@ static const char *bone_name(const walker *w, int32_t bone) {
 }
 
 static void check_bone(const walker *w, int32_t bone, const char *what, const char *path) {
-  if (bone >= 0 && !sbfi_bone_hangs_on(w->v->asset, bone, w->gait->body))
+  if (bone >= 0 && !sbfi_bone_is_descendant(w->v->asset, bone, w->gait->body))
     sbfi_found(w->v, SBF_CODE_GAIT_BONE_OUTSIDE, path, -1, "%s '%s' of gait '%s' is not below '%s'", what,
         bone_name(w, bone), w->name, bone_name(w, w->gait->body));
 }

@@ -36,7 +36,8 @@ static void check_chain(sbfi_validation *v, const sbf_ik_chain *chain, const cha
     check_bend(v, chain, &run, path);
   for (uint32_t c = 0; c < chain->comforts.count; c++) {
     int32_t bone = chain->comforts.at[c].bone;
-    if (!sbfi_bone_hangs_on(v->asset, bone, chain->root) || !sbfi_bone_hangs_on(v->asset, chain->end, bone))
+    if (!sbfi_bone_is_descendant(v->asset, bone, chain->root) ||
+        !sbfi_bone_is_descendant(v->asset, chain->end, bone))
       sbfi_found(v, SBF_CODE_IK_COMFORT_OUTSIDE, sbfi_path_of("%s/comfort[%u]", path, c + 1).text, -1,
           "a comfort of chain '%s' names the bone '%s'", name, sbfi_bone_label(v->asset, (uint32_t)bone));
   }

@@ -147,7 +147,7 @@ static void init_chains(sbri_rig *rig, sbri_bone_chain *chains) {
 }
 
 /* Legs on a chain have homes that follow it. */
-static void find_carriers(sbri_rig *rig) {
+static void find_leg_chain_bones(sbri_rig *rig) {
   for (uint32_t l = 0; l < rig->leg_count; l++) {
     sbri_leg *leg = &rig->legs[l];
     leg->home.carrier = -1;
@@ -270,7 +270,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
     sbri_rig_find_tails(rig, tails);
   }
   init_chains(rig, chains);
-  find_carriers(rig);
+  find_leg_chain_bones(rig);
   find_roles(rig, roles);
   find_last_legs(rig, roles);
   sbri_rig_find_belly(rig);

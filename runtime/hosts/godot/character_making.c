@@ -140,7 +140,7 @@ void soft_character_make(soft_character *one) {
       soft_character_pause(one);
       one->mesh = character_mesh_make(one);
       character_skeleton_make(one);
-      soft_character_dress_parts(one);
+      soft_character_apply_part_settings(one);
       one->stale = true;
     } else
       soft_character_unmake(one);

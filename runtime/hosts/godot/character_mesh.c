@@ -150,8 +150,8 @@ character_mesh *character_mesh_make(soft_character *one) {
   for (uint32_t i = 0; good && i < asset->render_meshes.count; i++)
     good = show(&made->meshes[made->count++], one, i);
   if (good) {
-    character_mesh_dress(made, one);
-    if (gd_size(&one->surface_materials)) character_mesh_dress_surfaces(made, one);
+    character_mesh_apply_settings(made, one);
+    if (gd_size(&one->surface_materials)) character_mesh_apply_materials(made, one);
     return made;
   }
   gd_error("no memory for a character's mesh");
@@ -200,7 +200,7 @@ static bool dress_surface(
   return found;
 }
 
-void character_mesh_dress_surfaces(character_mesh *mesh, const soft_character *one) {
+void character_mesh_apply_materials(character_mesh *mesh, const soft_character *one) {
   if (!mesh) return;
   gd_variant keys = GD_CALL(&one->surface_materials, "keys");
   for (uint32_t i = 0; i < mesh->count; i++)
@@ -225,7 +225,7 @@ void character_mesh_dress_surfaces(character_mesh *mesh, const soft_character *o
   gd_free(&keys);
 }
 
-void character_mesh_dress(character_mesh *mesh, const soft_character *one) {
+void character_mesh_apply_settings(character_mesh *mesh, const soft_character *one) {
   for (uint32_t i = 0; mesh && i < mesh->count; i++) {
     const gd_variant *instance = &mesh->meshes[i].instance;
     GD_DO(instance, "set_material_override", gd_copy(&one->material));

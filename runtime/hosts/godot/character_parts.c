@@ -5,7 +5,7 @@
 #include "method_table.h"
 #include "physics_parts.h"
 
-void soft_character_dress_parts(soft_character *one) {
+void soft_character_apply_part_settings(soft_character *one) {
   if (!one->world || one->editor) return;
   if (!one->settings.collision_layer) {
     physics_parts_free(one->parts);

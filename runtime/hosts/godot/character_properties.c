@@ -77,7 +77,7 @@ static void set_material(void *self, const gd_variant *const *arguments, gd_vari
   soft_character *one = self;
   (void)result;
   gd_assign(&one->material, gd_copy(arguments[0]));
-  character_mesh_dress(one->mesh, one);
+  character_mesh_apply_settings(one->mesh, one);
 }
 
 static void get_surface_materials(void *self, const gd_variant *const *arguments, gd_variant *result) {
@@ -89,7 +89,7 @@ static void set_surface_materials(void *self, const gd_variant *const *arguments
   soft_character *one = self;
   (void)result;
   gd_assign(&one->surface_materials, GD_CALL(arguments[0], "duplicate"));
-  character_mesh_dress_surfaces(one->mesh, one);
+  character_mesh_apply_materials(one->mesh, one);
 }
 
 SETTING(scheme, int, SBF_SCHEME_AUTOMATIC, SBF_SCHEME_BLOCK_DESCENT, soft_character_make(one))
@@ -110,14 +110,14 @@ SETTING(preview, bool, 0, 1, GD_DO(&one->node, "update_gizmos"))
 SETTING(mirror_skeleton, bool, 0, 1, soft_character_make(one))
 SETTING(ground, int, 0, 1, soft_character_make(one))
 SETTING(teleport_distance, float, 0, SOFT_MAX, (void)one)
-SETTING(collision_layer, int, INT32_MIN, UINT32_MAX, soft_character_dress_parts(one))
-SETTING(input_ray_pickable, bool, 0, 1, soft_character_dress_parts(one))
+SETTING(collision_layer, int, INT32_MIN, UINT32_MAX, soft_character_apply_part_settings(one))
+SETTING(input_ray_pickable, bool, 0, 1, soft_character_apply_part_settings(one))
 SETTING(collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
 SETTING(push_bodies, bool, 0, 1, (void)one)
 SETTING(push_limit, float, 0, SOFT_MAX, (void)one)
 SETTING(collide_with_others, bool, 0, 1, soft_character_make(one))
-SETTING(cast_shadow, int, 0, 3, character_mesh_dress(one->mesh, one))
-SETTING(layers, int, INT32_MIN, UINT32_MAX, character_mesh_dress(one->mesh, one))
+SETTING(cast_shadow, int, 0, 3, character_mesh_apply_settings(one->mesh, one))
+SETTING(layers, int, INT32_MIN, UINT32_MAX, character_mesh_apply_settings(one->mesh, one))
 #undef SETTING
 
 static void get_velocity(void *self, const gd_variant *const *arguments, gd_variant *result) {

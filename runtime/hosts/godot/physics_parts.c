@@ -53,7 +53,7 @@ static uint32_t largest_surface(const sbf_asset *asset) {
 }
 
 /* Bodies that carry the character by their own script pass through it. */
-static void except_carriers(physics_parts *parts, const gd_variant *node) {
+static void except_ancestors(physics_parts *parts, const gd_variant *node) {
   gd_variant above = GD_CALL(node, "get_parent");
   while (gd_as_object(&above)) {
     if (gd_take_bool(GD_CALL(&above, "is_class", gd_string("CharacterBody3D")))) {
@@ -93,7 +93,7 @@ physics_parts *physics_parts_make(const soft_character *one) {
   GD_DO(&made->server, "body_set_collision_mask", gd_copy(&made->body), gd_int(0));
   for (uint32_t i = 0; i < count; i++) make_shape(made, &shapes[i]);
   free(shapes);
-  except_carriers(made, &one->node);
+  except_ancestors(made, &one->node);
   physics_parts_apply_settings(made, one);
   return made;
 }

@@ -173,7 +173,7 @@ gd_function soft_character_asset_changed;
 /* ---- character_parts.c ---- */
 
 /* Creates or frees the parts by the settings. */
-void soft_character_dress_parts(soft_character *one);
+void soft_character_apply_part_settings(soft_character *one);
 /* Index of the bone of a name; -1: none. */
 int32_t soft_character_bone(const soft_character *one, const gd_variant *name);
 extern const gd_method soft_character_part_methods[];
@@ -207,9 +207,9 @@ character_mesh *character_mesh_make(soft_character *one);
 void character_mesh_free(character_mesh *mesh);
 void character_mesh_update(character_mesh *mesh, soft_character *one);
 /* Applies material, shadows and layers of the settings. */
-void character_mesh_dress(character_mesh *mesh, const soft_character *one);
+void character_mesh_apply_settings(character_mesh *mesh, const soft_character *one);
 /* Applies the materials of single surfaces. */
-void character_mesh_dress_surfaces(character_mesh *mesh, const soft_character *one);
+void character_mesh_apply_materials(character_mesh *mesh, const soft_character *one);
 /* The MeshInstance3D of a render mesh; nil: none. */
 gd_variant character_mesh_instance(const character_mesh *mesh, int64_t render_mesh);
 

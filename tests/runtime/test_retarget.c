@@ -162,7 +162,7 @@ START_TEST(skeletons_that_share_nothing_are_refused)
 END_TEST
 
 int main(void) {
-  Suite *suite = suite_create("carry");
+  Suite *suite = suite_create("retarget");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, chains_of_one_name_carry_a_clip_to_other_bones);
   tcase_add_test(tests, a_loaded_character_takes_clips_too);

@@ -1,10 +1,10 @@
-#include "import/path_beside.h"
+#include "import/sibling_path.h"
 
 #include "harness.h"
 
 static void expect(const char *path, const char *name, const char *expected) {
   char to[24];
-  bool good = sbfi_path_beside(to, sizeof to, path, sbfi_span_of(name));
+  bool good = sbfi_sibling_path(to, sizeof to, path, sbfi_span_of(name));
   ck_assert(good == (expected != NULL));
   if (good) ck_assert_str_eq(to, expected);
 }
@@ -19,12 +19,12 @@ START_TEST(names_are_looked_for_beside_the_file)
   expect("a/model.obj", "0123456789012345678901", NULL);
   expect("a/model.obj", "012345678901234567890", "a/012345678901234567890");
   char to[24];
-  ck_assert(!sbfi_path_beside(to, sizeof to, "a", (sbfi_span){"x\0y", 3}));
+  ck_assert(!sbfi_sibling_path(to, sizeof to, "a", (sbfi_span){"x\0y", 3}));
 }
 END_TEST
 
-static Suite *path_beside_suite(void) {
-  Suite *suite = suite_create("path_beside");
+static Suite *sibling_path_suite(void) {
+  Suite *suite = suite_create("sibling_path");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, names_are_looked_for_beside_the_file);
   suite_add_tcase(suite, tests);
@@ -32,5 +32,5 @@ static Suite *path_beside_suite(void) {
 }
 
 int main(void) {
-  return harness_run(path_beside_suite());
+  return harness_run(sibling_path_suite());
 }

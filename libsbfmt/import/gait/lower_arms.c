@@ -34,9 +34,9 @@ static void rotation_about(const double axis[3], double angle, double rotation[4
   rotation[3] = cos(angle / 2);
 }
 
-static void set_turn(sbfi_pose_draft *pose, int32_t bone, const double rotation[4]) {
-  for (int k = 0; k < 4; k++) pose->turns[bone][k] = rotation[k];
-  pose->turned[bone] = true;
+static void set_rotation(sbfi_pose_draft *pose, int32_t bone, const double rotation[4]) {
+  for (int k = 0; k < 4; k++) pose->rotations[bone][k] = rotation[k];
+  pose->is_rotated[bone] = true;
 }
 
 /* Child with most points in its subtree; SBF_NONE if none. */
@@ -45,7 +45,7 @@ static int32_t thickest_child(const sbfi_rig_view *view, int32_t bone, double *l
   int32_t best = SBF_NONE;
   double farthest = 0;
   for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++) {
-    if (sbfi_draft_bone(d, (int32_t)i)->parent != bone || !d->shapes[i].bears) continue;
+    if (sbfi_draft_bone(d, (int32_t)i)->parent != bone || !d->shapes[i].moves_points) continue;
     double reach = sbfi_draft_distance(d, bone, (int32_t)i);
     if (best != SBF_NONE && reach <= farthest) continue;
     farthest = reach;
@@ -119,7 +119,7 @@ static void curl_fingers(
   double length;
   for (uint32_t i = (uint32_t)hand + 1; i < d->asset->bones.count; i++) {
     int32_t bone = (int32_t)i;
-    if (sbfi_draft_bone(d, bone)->parent != hand || !d->shapes[i].bears) continue;
+    if (sbfi_draft_bone(d, bone)->parent != hand || !d->shapes[i].moves_points) continue;
     for (int joint = 0; joint < 3 && bone != SBF_NONE; joint++) {
       int32_t next = thickest_child(view, bone, &length);
       double from[3], to[3], heading[3];
@@ -136,13 +136,13 @@ static void curl_fingers(
       const double axis[3] = {along[2] / size, 0, -along[0] / size};
       double rotation[4];
       rotation_about(axis, FINGER[joint] * DEGREE, rotation);
-      set_turn(pose, bone, rotation);
+      set_rotation(pose, bone, rotation);
       bone = next;
     }
   }
 }
 
-static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose_draft *pose) {
+static bool lower_arm(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose_draft *pose) {
   double shoulder[3], elbow[3], wrist[3], upper[3], lower[3], rotation[4], bend[4];
   head_of(view, arm->upper, shoulder);
   head_of(view, arm->lower, elbow);
@@ -153,7 +153,7 @@ static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose
   double zero[3] = {0, 0, 0}, target[3];
   direction(zero, wanted, target);
   sbfi_quatd_between(upper, target, rotation);
-  set_turn(pose, arm->upper, rotation);
+  set_rotation(pose, arm->upper, rotation);
   double bent = 0;
   bool has_hand = arm->hand != SBF_NONE;
   if (has_hand) {
@@ -174,15 +174,15 @@ static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose
     sbfi_quatd_conjugate(rotation, undo);
     sbfi_quatd_rotate(undo, ahead, axis);
     rotation_about(axis, (ELBOW - bent) * DEGREE, bend);
-    set_turn(pose, arm->lower, bend);
+    set_rotation(pose, arm->lower, bend);
   }
   if (has_hand) curl_fingers(view, arm->hand, lower, pose);
   return true;
 }
 
-bool sbfi_hang_arms(
+bool sbfi_lower_arms(
     const sbfi_rig_view *view, const sbfi_arm_draft *arms, uint32_t count, sbfi_pose_draft *pose) {
-  bool hung = false;
-  for (uint32_t i = 0; i < count; i++) hung = hang(view, &arms[i], pose) || hung;
-  return hung;
+  bool lowered = false;
+  for (uint32_t i = 0; i < count; i++) lowered = lower_arm(view, &arms[i], pose) || lowered;
+  return lowered;
 }

@@ -174,7 +174,7 @@ START_TEST(points_named_several_times_carry_once)
 END_TEST
 
 static Suite *suite(void) {
-  Suite *s = suite_create("skin carry");
+  Suite *s = suite_create("skin_binding");
   TCase *c = tcase_create("skin carry");
   tcase_add_test(c, vertices_blend_over_points_and_bodies);
   tcase_add_test(c, shares_that_do_not_add_up_are_brought_there);

@@ -4,31 +4,32 @@
 #include "model/level_mesh.h"
 #include "prepare/prepare.h"
 
-typedef struct carrier {
+typedef struct weighted_slot {
   uint32_t vertex, slot;
   float weight;
-} carrier;
+} weighted_slot;
 
-typedef struct carry {
+typedef struct skin_binder {
   sbr_model *model;
   sbri_skin *skin;
   uint32_t source_count;       /* vertices of the mesh */
   const uint32_t *position_of; /* (source_count) index in the skin, UINT32_MAX: not in it; NULL: the same */
   sbfi_arena scratch;
-  sbfi_array carriers; /* carrier */
-  sbfi_array bindings; /* sbri_binding; `cell` is the first of four carriers until cells are assigned */
-  sbfi_array pieces;   /* piece */
-  bool shared;         /* the present embedding has vertices with several points */
-} carry;
+  sbfi_array weighted_slots; /* carrier */
+  sbfi_array bindings;       /* sbri_binding; `cell` is the first of four carriers until cells are assigned */
+  sbfi_array pieces;         /* piece */
+  bool shared;               /* the present embedding has vertices with several points */
+} skin_binder;
 
-static uint32_t position_of(const carry *c, uint32_t vertex) {
+static uint32_t position_of(const skin_binder *c, uint32_t vertex) {
   return c->position_of ? c->position_of[vertex] : vertex;
 }
 
-static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
+static bool add_weighted_slot(
+    skin_binder *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
   if (weight == 0) return true;
   uint32_t slot = c->model->islands[body->island].first_slot + body->slots.from_point[point];
-  return sbfi_array_append(&c->carriers, &(carrier){vertex, slot, weight}, 1);
+  return sbfi_array_append(&c->weighted_slots, &(weighted_slot){vertex, slot, weight}, 1);
 }
 
 static bool is_among(uint32_t point, const uint32_t points[4]) {
@@ -57,22 +58,22 @@ static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, 
 }
 
 /* Whether a vertex is embedded in several points of a network that may tear. */
-static bool bind_to_network(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
+static bool bind_to_network(skin_binder *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
     const float weights[4], bool *bound) {
   const sbri_island *island = &c->model->islands[body->island];
   if (!c->shared) return true;
-  sbri_binding binding = {vertex, (uint32_t)c->carriers.count, body->island, UINT32_MAX};
+  sbri_binding binding = {vertex, (uint32_t)c->weighted_slots.count, body->island, UINT32_MAX};
   if (!sbfi_array_append(&c->bindings, &binding, 1)) return false;
   for (int k = 0; k < 4; k++) {
-    carrier one = {vertex, island->first_slot + body->slots.from_point[points[k]], weights[k]};
-    if (!sbfi_array_append(&c->carriers, &one, 1)) return false;
+    weighted_slot one = {vertex, island->first_slot + body->slots.from_point[points[k]], weights[k]};
+    if (!sbfi_array_append(&c->weighted_slots, &one, 1)) return false;
   }
   *bound = true;
   return true;
 }
 
 /* Corners of a tetrahedron that may tear, all four in its own order; `bound` is false if there is none. */
-static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
+static bool bind_vertex(skin_binder *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
     const float weights[4], bool *bound) {
   *bound = false;
   if (c->model->islands[body->island].springs.tear && sbri_body_frays(body))
@@ -82,18 +83,18 @@ static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const 
   if (found == UINT32_MAX) return true;
   const sbri_island *island = &c->model->islands[body->island];
   const uint32_t *corners = body->level->lattice.tetrahedra.at[found - body->elements.first_tetrahedron].at;
-  sbri_binding binding = {vertex, (uint32_t)c->carriers.count, body->island, found};
+  sbri_binding binding = {vertex, (uint32_t)c->weighted_slots.count, body->island, found};
   if (!sbfi_array_append(&c->bindings, &binding, 1)) return false;
   for (int k = 0; k < 4; k++) {
-    carrier one = {vertex, island->first_slot + body->slots.from_point[corners[k]], 0};
+    weighted_slot one = {vertex, island->first_slot + body->slots.from_point[corners[k]], 0};
     for (int i = 0; i < 4; i++) one.weight += points[i] == corners[k] ? weights[i] : 0;
-    if (!sbfi_array_append(&c->carriers, &one, 1)) return false;
+    if (!sbfi_array_append(&c->weighted_slots, &one, 1)) return false;
   }
   *bound = true;
   return true;
 }
 
-static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *embedding) {
+static bool add_embedding(skin_binder *c, const sbri_body *body, const sbf_embedding *embedding) {
   c->shared = false;
   for (uint32_t i = 0; i < embedding->points.count && !c->shared; i++) {
     const sbf_vec4 *w = &embedding->weights.at[i];
@@ -110,14 +111,14 @@ static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *
     if (!bind_vertex(c, body, position_of(c, vertex), embedding->points.at[i].at, weights, &bound))
       return false;
     for (int k = 0; k < 4 && !bound; k++)
-      if (!add_carrier(c, body, position_of(c, vertex), embedding->points.at[i].at[k], weights[k]))
+      if (!add_weighted_slot(c, body, position_of(c, vertex), embedding->points.at[i].at[k], weights[k]))
         return false;
   }
   return true;
 }
 
 /* `indices` has the cell of each carrier. */
-static bool store_bindings(carry *c, const uint32_t *indices) {
+static bool store_bindings(skin_binder *c, const uint32_t *indices) {
   sbri_skin *skin = c->skin;
   uint32_t count = (uint32_t)c->bindings.count;
   if (count == 0) return true;
@@ -137,16 +138,16 @@ static bool store_bindings(carry *c, const uint32_t *indices) {
 }
 
 /* Normalises weights whose sum is not 1, as in hand-painted maps. */
-static bool fill_cells(carry *c, uint32_t *counts) {
+static bool fill_cells(skin_binder *c, uint32_t *counts) {
   sbri_skin *skin = c->skin;
-  const carrier *carriers = c->carriers.at;
+  const weighted_slot *weighted_slots = c->weighted_slots.at;
   uint32_t block_count = (skin->vertex_count + SBRI_BLOCK - 1) / SBRI_BLOCK;
   uint32_t *begins = sbfi_arena_allocate(&c->model->arena, (size_t)block_count + 1, sizeof *begins);
   float *sums = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *sums);
   if (!begins || !sums) return false;
-  for (size_t i = 0; i < c->carriers.count; i++) {
-    counts[carriers[i].vertex]++;
-    sums[carriers[i].vertex] += carriers[i].weight;
+  for (size_t i = 0; i < c->weighted_slots.count; i++) {
+    counts[weighted_slots[i].vertex]++;
+    sums[weighted_slots[i].vertex] += weighted_slots[i].weight;
   }
   for (uint32_t block = 0; block < block_count; block++) {
     uint32_t max = 0;
@@ -157,16 +158,17 @@ static bool fill_cells(carry *c, uint32_t *counts) {
   size_t cell_count = begins[block_count];
   sbri_volume_cell *cells = sbfi_arena_allocate(&c->model->arena, cell_count ? cell_count : 1, sizeof *cells);
   uint32_t *used = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *used);
-  uint32_t *indices = sbfi_arena_allocate(&c->scratch, c->carriers.count + 1, sizeof *indices);
+  uint32_t *indices = sbfi_arena_allocate(&c->scratch, c->weighted_slots.count + 1, sizeof *indices);
   if (!cells || !used || !indices) return false;
-  for (size_t i = 0; i < c->carriers.count; i++) {
-    uint32_t vertex = carriers[i].vertex;
+  for (size_t i = 0; i < c->weighted_slots.count; i++) {
+    uint32_t vertex = weighted_slots[i].vertex;
     indices[i] = begins[vertex / SBRI_BLOCK] + used[vertex]++;
     sbri_volume_cell *cell = &cells[indices[i]];
     float sum = sums[vertex];
-    cell->slots[vertex % SBRI_BLOCK] = carriers[i].slot;
-    cell->weights[vertex % SBRI_BLOCK] =
-        fabsf(sum - 1) < 1e-5f || fabsf(sum) < 1e-6f ? carriers[i].weight : carriers[i].weight / sum;
+    cell->slots[vertex % SBRI_BLOCK] = weighted_slots[i].slot;
+    cell->weights[vertex % SBRI_BLOCK] = fabsf(sum - 1) < 1e-5f || fabsf(sum) < 1e-6f
+                                             ? weighted_slots[i].weight
+                                             : weighted_slots[i].weight / sum;
   }
   skin->cell_begins = begins;
   skin->cells = cells;
@@ -180,12 +182,13 @@ typedef struct piece {
   float weight;
 } piece;
 
-static bool add_piece(carry *c, uint32_t vertex, uint32_t frame, float weight) {
+static bool add_piece(skin_binder *c, uint32_t vertex, uint32_t frame, float weight) {
   return weight == 0 || sbfi_array_append(&c->pieces, &(piece){vertex, frame, weight}, 1);
 }
 
 /* Adds the drivers of a point of the first detail level. */
-static bool add_drivers(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
+static bool add_drivers(
+    skin_binder *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
   const sbri_island *island = &c->model->detail.base->islands[body->island];
   uint32_t slot = body->slots.from_point[point];
   if (slot >= island->free_count)
@@ -198,7 +201,8 @@ static bool add_drivers(carry *c, const sbri_body *body, uint32_t vertex, uint32
 }
 
 /* Frames of the vertices if bodies follow their drivers without inertia, or jiggle. */
-static bool add_pieces(carry *c, const sbri_body *body, uint32_t frame, const sbf_embedding *embedding) {
+static bool add_pieces(
+    skin_binder *c, const sbri_body *body, uint32_t frame, const sbf_embedding *embedding) {
   for (uint32_t i = 0; i < embedding->points.count; i++) {
     uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
     float blend = embedding->blends.count ? embedding->blends.at[i] : 1;
@@ -212,7 +216,7 @@ static bool add_pieces(carry *c, const sbri_body *body, uint32_t frame, const sb
   return true;
 }
 
-static bool add_all_pieces(carry *c, uint32_t render_mesh) {
+static bool add_all_pieces(skin_binder *c, uint32_t render_mesh) {
   const sbr_model *model = c->model;
   for (uint32_t b = 0; model->detail.kind != SBR_DETAIL_SOFT && b < model->asset->soft_bodies.count; b++) {
     const sbri_body *body = &model->detail.base->bodies[b];
@@ -228,7 +232,7 @@ static bool add_all_pieces(carry *c, uint32_t render_mesh) {
 }
 
 /* Sorts pieces by vertices: first piece of each vertex. */
-static bool sort_pieces(carry *c, const uint32_t **begins, const piece **sorted) {
+static bool sort_pieces(skin_binder *c, const uint32_t **begins, const piece **sorted) {
   const piece *pieces = c->pieces.at;
   uint32_t *starts = sbfi_arena_allocate(&c->scratch, (size_t)c->source_count + 2, sizeof *starts);
   piece *to = sbfi_arena_allocate(&c->scratch, c->pieces.count + 1, sizeof *to);
@@ -258,7 +262,7 @@ static uint32_t join_pieces(const piece *pieces, uint32_t count, sbri_influence 
 
 /* Vertices without a body: they follow pieces, else the skin's weights, else `frame`. */
 static bool fill_frames(
-    carry *c, const uint32_t *counts, const sbf_vec3 *rest, const sbf_skin *weights, uint32_t frame) {
+    skin_binder *c, const uint32_t *counts, const sbf_vec3 *rest, const sbf_skin *weights, uint32_t frame) {
   sbri_skin *skin = c->skin;
   const uint32_t *begins;
   const piece *pieces;
@@ -297,7 +301,7 @@ static bool fill_frames(
   return true;
 }
 
-static bool finish(carry *c, const sbf_vec3 *rest, const sbf_skin *weights, int32_t bone, bool good) {
+static bool finish(skin_binder *c, const sbf_vec3 *rest, const sbf_skin *weights, int32_t bone, bool good) {
   uint32_t *counts = NULL;
   if (good && c->skin->vertex_count) {
     counts = sbfi_arena_allocate(&c->scratch, c->skin->vertex_count, sizeof *counts);
@@ -306,22 +310,22 @@ static bool finish(carry *c, const sbf_vec3 *rest, const sbf_skin *weights, int3
   }
   sbfi_array_free(&c->pieces);
   sbfi_array_free(&c->bindings);
-  sbfi_array_free(&c->carriers);
+  sbfi_array_free(&c->weighted_slots);
   sbfi_arena_free(&c->scratch);
   return good;
 }
 
-static carry begin(sbr_model *model, sbri_skin *skin, uint32_t vertex_count) {
-  carry c = {.model = model, .skin = skin, .source_count = vertex_count};
+static skin_binder begin(sbr_model *model, sbri_skin *skin, uint32_t vertex_count) {
+  skin_binder c = {.model = model, .skin = skin, .source_count = vertex_count};
   sbfi_arena_init(&c.scratch, &model->arena.allocator, 0);
-  sbfi_array_init(&c.carriers, &model->arena.allocator, sizeof(carrier));
+  sbfi_array_init(&c.weighted_slots, &model->arena.allocator, sizeof(weighted_slot));
   sbfi_array_init(&c.bindings, &model->arena.allocator, sizeof(sbri_binding));
   sbfi_array_init(&c.pieces, &model->arena.allocator, sizeof(piece));
   skin->vertex_count = vertex_count;
   return c;
 }
 
-static bool add_embeddings(carry *c, uint32_t render_mesh) {
+static bool add_embeddings(skin_binder *c, uint32_t render_mesh) {
   const sbr_model *model = c->model;
   bool good = true;
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
@@ -349,7 +353,7 @@ static bool shade(sbr_model *model, sbri_skin *skin, const sbf_render_mesh *show
 bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_level) {
   const sbf_render_mesh *mesh = &model->asset->render_meshes.at[render_mesh];
   sbri_skin *skin = &model->skins.at[model->skins.first[render_mesh] + render_level];
-  carry c = begin(model, skin, mesh->mesh.positions.count);
+  skin_binder c = begin(model, skin, mesh->mesh.positions.count);
   sbf_render_mesh shown = *mesh;
   bool good = true;
   if (render_level > 0) {
@@ -375,11 +379,11 @@ bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_leve
 }
 
 /* Without an embedding of its own surface, a level's points begin with those of the surface. */
-static bool add_surface_points(carry *c, const sbri_body *body) {
+static bool add_surface_points(skin_binder *c, const sbri_body *body) {
   const sbf_u32_list *new_from_old = &body->level->new_from_old;
   for (uint32_t i = 0; i < c->skin->vertex_count; i++) {
     uint32_t point = i < new_from_old->count ? new_from_old->at[i] : i;
-    if (point < body->level->positions.count && !add_carrier(c, body, i, point, 1)) return false;
+    if (point < body->level->positions.count && !add_weighted_slot(c, body, i, point, 1)) return false;
   }
   return true;
 }
@@ -387,7 +391,7 @@ static bool add_surface_points(carry *c, const sbri_body *body) {
 bool sbri_surface_make(sbr_model *model, uint32_t soft_body) {
   sbri_body *body = &model->bodies[soft_body];
   const sbf_polygon_mesh *mesh = &body->source->surface;
-  carry c = begin(model, &body->surface.skin, mesh->positions.count);
+  skin_binder c = begin(model, &body->surface.skin, mesh->positions.count);
   bool good = true, embedded = false;
   for (uint32_t e = 0; good && body->level && e < body->level->embeddings.count; e++)
     if (body->level->embeddings.at[e].render_mesh < 0) {

@@ -1,8 +1,8 @@
-#include "import/path_beside.h"
+#include "import/sibling_path.h"
 
 #include <string.h>
 
-bool sbfi_path_beside(char *to, size_t size, const char *path, sbfi_span name) {
+bool sbfi_sibling_path(char *to, size_t size, const char *path, sbfi_span name) {
   const char *slash = strrchr(path, '/');
   bool absolute = name.length && (*name.at == '/' || *name.at == '\\');
   size_t folder = slash && !absolute ? (size_t)(slash - path) + 1 : 0;

@@ -16,11 +16,11 @@
  * point others still count as touching. */
 static const double FARTHEST = 0.05, DETOUR = 0.03, TOUCHING = 0.01;
 /* Minimum fraction of a piece's points with weights for the rest to inherit theirs. */
-static const double MIN_CARRIED = 0.4;
+static const double MIN_TRANSFERRED = 0.4;
 /* Minimum fraction of a piece's points near rigid pieces of one bone for all to follow it. */
 static const double MIN_RIGID = 0.75;
 /* Minimum fraction of an object's points near unskinned meshes of the rig for it to be attached like them. */
-static const double MIN_BARE = 0.9;
+static const double MIN_UNSKINNED = 0.9;
 /* A piece stands on the surface, instead of covering it as clothes do, if this fraction of it faces the
  * surface and at most this fraction is parallel to it within a distance. Distance and maximum size of the
  * piece are fractions of the rig's size. */
@@ -33,13 +33,13 @@ typedef struct carrying {
   sbfi_rigging *r;
   const sbfi_scene_surface *moved;
   sbfi_surface_finder finder;
-  uint32_t *pieces; /* (points) first point of the piece of each */
-  float *distances; /* (points) distance from the rig's surface */
-  int32_t *nearest; /* (points) node of the nearest rigid piece of the rig, or SBF_NONE */
-  int32_t *bare;    /* (points) node of the nearest mesh of the rig if no bone moves it, or SBF_NONE */
-  int32_t *rigid;   /* (rig points) node that alone moves the whole piece, or SBF_NONE */
-  bool *is_stiff;   /* (points) at the first point of each piece: rigid pieces of one bone move it */
-  uint8_t *stands;  /* (points) whether the point faces the nearby surface or is parallel to it */
+  uint32_t *pieces;   /* (points) first point of the piece of each */
+  float *distances;   /* (points) distance from the rig's surface */
+  int32_t *nearest;   /* (points) node of the nearest rigid piece of the rig, or SBF_NONE */
+  int32_t *unskinned; /* (points) node of the nearest mesh of the rig if no bone moves it, or SBF_NONE */
+  int32_t *rigid;     /* (rig points) node that alone moves the whole piece, or SBF_NONE */
+  bool *is_stiff;     /* (points) at the first point of each piece: rigid pieces of one bone move it */
+  uint8_t *stands;    /* (points) whether the point faces the nearby surface or is parallel to it */
   sbfi_arena *scratch;
 } carrying;
 
@@ -108,7 +108,7 @@ static void add_weights(
 static void copy_weights(carrying *c, uint32_t point, sbfi_influences *weights) {
   sbfi_influences_finish(weights);
   c->r->weights[point] = *weights;
-  if (weights->at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_CARRIED;
+  if (weights->at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_TRANSFERRED;
 }
 
 /* For a thin part of the rig that the input has as a sheet: blends both sides, the nearer one more. */
@@ -132,14 +132,14 @@ static void transfer_to_point(carrying *c, uint32_t point, double sign) {
   sbfi_d3 position = sbfi_d3_of(c->moved->mesh.positions.at[point]);
   sbfi_d3 normal = sbfi_d3_scale(sbfi_d3_of(c->moved->normals[point]), sign);
   c->distances[point] = INFINITY;
-  c->nearest[point] = c->bare[point] = SBF_NONE;
+  c->nearest[point] = c->unskinned[point] = SBF_NONE;
   if (!sbfi_surface_nearest(&c->finder, position, NULL, size, &near)) return;
   c->distances[point] = (float)near.distance;
   c->nearest[point] = c->rigid[near.points[0]];
-  const sbfi_scene_mesh *beside = mesh_at(c, near.points[0]);
-  if (near.distance <= FARTHEST * size && !beside->joint_count &&
-      c->r->c->bone_of_node[beside->node] == SBF_NONE)
-    c->bare[point] = beside->node;
+  const sbfi_scene_mesh *nearest_mesh = mesh_at(c, near.points[0]);
+  if (near.distance <= FARTHEST * size && !nearest_mesh->joint_count &&
+      c->r->c->bone_of_node[nearest_mesh->node] == SBF_NONE)
+    c->unskinned[point] = nearest_mesh->node;
   if (!(sbfi_d3_length(normal) > 0)) {
     transfer_to_sheet(c, point, position, &near);
     return;
@@ -176,20 +176,20 @@ static bool mean_of_neighbours(const carrying *c, uint32_t point, sbfi_influence
 
 /* Drops points unlike all neighbours: they matched a surface of another part. */
 static bool drop_outliers(carrying *c) {
-  static const double unlike = 0.4; /* of 1; 0: nothing in common */
+  static const double min_common = 0.4; /* of 1; 0: nothing in common */
   uint32_t count = c->moved->mesh.positions.count;
   bool *outlier = sbfi_arena_allocate(c->scratch, count + 1, sizeof *outlier);
   if (!outlier) return false;
   for (uint32_t i = 0; i < count; i++) {
     sbfi_influences mean;
     double common = 0;
-    if (c->r->sources[i] != SBFI_WEIGHTS_CARRIED || !mean_of_neighbours(c, i, &mean)) continue;
+    if (c->r->sources[i] != SBFI_WEIGHTS_TRANSFERRED || !mean_of_neighbours(c, i, &mean)) continue;
     const sbfi_influences *own = &c->r->weights[i];
     for (uint32_t a = 0; a < SBFI_MAX_INFLUENCES && mean.at[a].weight > 0; a++)
       for (uint32_t b = 0; b < SBFI_MAX_INFLUENCES && own->at[b].weight > 0; b++)
         if (mean.at[a].node == own->at[b].node)
           common += fmin((double)mean.at[a].weight, (double)own->at[b].weight);
-    outlier[i] = common < unlike && c->distances[i] > 1e-3f * (float)c->r->rig.size;
+    outlier[i] = common < min_common && c->distances[i] > 1e-3f * (float)c->r->rig.size;
   }
   for (uint32_t i = 0; i < count; i++) {
     if (!outlier[i]) continue;
@@ -214,7 +214,7 @@ static bool spread(carrying *c) {
       if (mean_of_neighbours(c, i, &mean)) c->r->weights[i] = mean;
     }
   for (uint32_t n = 0; n < open_count; n++)
-    if (c->r->weights[open[n]].at[0].weight > 0) c->r->sources[open[n]] = SBFI_WEIGHTS_CARRIED;
+    if (c->r->weights[open[n]].at[0].weight > 0) c->r->sources[open[n]] = SBFI_WEIGHTS_TRANSFERRED;
   return true;
 }
 
@@ -238,7 +238,7 @@ static void widen(piece *p, sbf_vec3 at) {
 /* Whether the piece is a separate rigid object. */
 static bool is_attached(const carrying *c, const piece *p) {
   double length = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(p->high), sbfi_d3_of(p->low)));
-  if (p->weighted < MIN_CARRIED * p->points) return true;
+  if (p->weighted < MIN_TRANSFERRED * p->points) return true;
   return !p->is_stiff && p->facing >= MIN_FACING * p->points && p->along <= MAX_ALONG * p->points &&
          length <= MAX_STANDING * c->r->rig.size;
 }
@@ -283,7 +283,7 @@ static bool attach_pieces(carrying *c) {
   for (uint32_t i = 0; i < count; i++) {
     const piece *p = &pieces[c->pieces[i]];
     sbfi_weight_source source = (sbfi_weight_source)c->r->sources[i];
-    if (!(p->touched.at[0].weight > 0) || (source != SBFI_WEIGHTS_NONE && source != SBFI_WEIGHTS_CARRIED))
+    if (!(p->touched.at[0].weight > 0) || (source != SBFI_WEIGHTS_NONE && source != SBFI_WEIGHTS_TRANSFERRED))
       continue;
     c->r->weights[i] = (sbfi_influences){{{strongest(&p->touched), 1}}};
     c->r->sources[i] = SBFI_WEIGHTS_ATTACHED;
@@ -315,9 +315,9 @@ static bool stiffen_pieces(carrying *c) {
   for (uint32_t i = 0; i < count; i++) {
     const vote *v = &votes[c->pieces[i]];
     if (v->node == SBF_NONE || v->agreed < MIN_RIGID * v->points) continue;
-    if (!is_open(c, i) && c->r->sources[i] != SBFI_WEIGHTS_CARRIED) continue;
+    if (!is_open(c, i) && c->r->sources[i] != SBFI_WEIGHTS_TRANSFERRED) continue;
     c->r->weights[i] = (sbfi_influences){{{(uint32_t)v->node, 1}}};
-    c->r->sources[i] = SBFI_WEIGHTS_CARRIED;
+    c->r->sources[i] = SBFI_WEIGHTS_TRANSFERRED;
     c->is_stiff[c->pieces[i]] = true;
   }
   return true;
@@ -332,34 +332,34 @@ static double weighted_fraction(const sbfi_rigging *r) {
 }
 
 /* Node of an unskinned rig mesh on which the object lies; SBF_NONE if there is none. */
-static int32_t bare_node_of(const carrying *c, uint32_t mesh) {
+static int32_t unskinned_node_of(const carrying *c, uint32_t mesh) {
   uint32_t from = c->r->input.mesh_starts[mesh], to = c->r->input.mesh_starts[mesh + 1], on = 0;
   int32_t node = SBF_NONE;
   for (uint32_t i = from; i < to; i++) {
     bool is_matched = c->r->sources[i] == SBFI_WEIGHTS_MATCHED && !(c->r->weights[i].at[0].weight > 0);
-    on += is_matched || c->bare[i] != SBF_NONE;
-    if (c->bare[i] != SBF_NONE) node = c->bare[i];
+    on += is_matched || c->unskinned[i] != SBF_NONE;
+    if (c->unskinned[i] != SBF_NONE) node = c->unskinned[i];
   }
-  return on >= MIN_BARE * (to - from) ? node : SBF_NONE;
+  return on >= MIN_UNSKINNED * (to - from) ? node : SBF_NONE;
 }
 
-static void attach_bare_objects(carrying *c) {
+static void attach_unskinned_objects(carrying *c) {
   sbfi_rigging *r = c->r;
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
-    if (r->carriers[m] == SBF_NONE) r->carriers[m] = bare_node_of(c, m);
+    if (r->parent_nodes[m] == SBF_NONE) r->parent_nodes[m] = unskinned_node_of(c, m);
 }
 
 static void transfer_to_objects(carrying *c) {
   sbfi_rigging *r = c->r;
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
     bool away = faces_away(c, m), mirrored = sbfi_matrix_determinant(&r->alignment.to_asset) < 0;
-    r->turned[m] = away != mirrored; /* a mirrored mesh is flipped later anyway */
-    if (r->carriers[m] != SBF_NONE) continue;
+    r->is_reversed[m] = away != mirrored; /* a mirrored mesh is flipped later anyway */
+    if (r->parent_nodes[m] != SBF_NONE) continue;
     for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++)
       if (is_open(c, i)) transfer_to_point(c, i, away ? -1 : 1);
-    if (bare_node_of(c, m) == SBF_NONE) continue;
+    if (unskinned_node_of(c, m) == SBF_NONE) continue;
     for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++)
-      r->sources[i] = SBFI_WEIGHTS_CARRIED;
+      r->sources[i] = SBFI_WEIGHTS_TRANSFERRED;
   }
 }
 
@@ -370,24 +370,24 @@ bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, do
   carrying c = {.r = r, .moved = moved, .scratch = &scratch};
   c.distances = sbfi_arena_allocate(&scratch, count + 1, sizeof *c.distances);
   c.nearest = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.nearest);
-  c.bare = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.bare);
+  c.unskinned = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.unskinned);
   c.pieces = sbfi_surface_pieces(moved, &scratch);
   c.is_stiff = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.is_stiff);
   c.stands = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.stands);
-  bool good = c.distances && c.nearest && c.bare && c.pieces && c.is_stiff && c.stands &&
+  bool good = c.distances && c.nearest && c.unskinned && c.pieces && c.is_stiff && c.stands &&
               find_rigid_pieces(&c) && sbfi_surface_finder_make(&c.finder, &r->rig, &scratch);
-  for (uint32_t i = 0; good && i < count; i++) c.bare[i] = SBF_NONE;
+  for (uint32_t i = 0; good && i < count; i++) c.unskinned[i] = SBF_NONE;
   for (uint32_t i = 0; good && i < count; i++) /* points matched by position keep their node */
     c.nearest[i] = r->weights[i].at[0].weight > 0 && r->weights[i].at[1].weight <= 0
                        ? (int32_t)r->weights[i].at[0].node
                        : SBF_NONE;
   if (good) transfer_to_objects(&c);
   *fraction = good ? weighted_fraction(r) : 0;
-  if (good && *fraction >= min) attach_bare_objects(&c);
+  if (good && *fraction >= min) attach_unskinned_objects(&c);
   if (good && *fraction >= min)
     good = stiffen_pieces(&c) && attach_pieces(&c) && drop_outliers(&c) && spread(&c);
   for (uint32_t i = 0; *fraction < min && i < count; i++)
-    if (r->sources[i] == SBFI_WEIGHTS_CARRIED) {
+    if (r->sources[i] == SBFI_WEIGHTS_TRANSFERRED) {
       r->sources[i] = SBFI_WEIGHTS_NONE;
       r->weights[i] = (sbfi_influences){0};
     }
