@@ -94,12 +94,12 @@ static void renumber_field(renumber_walk *walk, const sbfi_element_path *path, c
   int32_t value = sbfi_get_integer(object, field);
   for (uint32_t i = 0; i < walk->count && value != SBF_NONE; i++) {
     const sbfi_renumbering *by = &walk->renumberings[i];
-    if (by->collection != field->target) continue;
+    if (by->collection != field->reference.offset) continue;
     int32_t new_value = (uint32_t)value < by->old_count ? by->new_from_old[value] : SBF_NONE;
     if (new_value == SBF_NONE && field->required && walk->good) {
       walk->good = false;
       sbfi_element_path_print(path, field, walk->lost->path, sizeof walk->lost->path);
-      walk->lost->collection = field->target_name;
+      walk->lost->collection = field->reference.name;
     }
     sbfi_set_integer(object, field, new_value);
     return;

@@ -342,9 +342,9 @@ static void write_limit(paper_writer *w, const sbf_limit *limit, const char *tar
 
 static void write_joint(paper_writer *w, const sbf_joint *joint, const uint32_t *numbers) {
   const sbfi_field *joints = sbfi_element_field(&sbfi_asset_element, "joints");
-  const char *const *kinds = sbfi_element_field(joints->element, "kind")->values;
+  const char *const *kinds = sbfi_element_field(joints->element, "kind")->words.at;
   const sbfi_field *limits = sbfi_element_field(joints->element, "limits");
-  const char *const *targets = sbfi_element_field(limits->element, "target")->values;
+  const char *const *targets = sbfi_element_field(limits->element, "target")->words.at;
   const char *kind = kinds[joint->kind];
   sbfi_export_format(w->e, "      <%s_joint", kind);
   if (joint->body_a >= 0) sbfi_export_format(w->e, " r1=\"%u\"", numbers[joint->body_a]);

@@ -377,7 +377,7 @@ static void write_value(writer *w, const sbfi_element_path *path, const sbfi_fie
     write_numbers(w, field, at);
     break;
   case SBFI_ENUM:
-    sbfi_glb_write_string(&w->text, field->values[sbfi_get_integer(path->object, field)]);
+    sbfi_glb_write_string(&w->text, field->words.at[sbfi_get_integer(path->object, field)]);
     break;
   case SBFI_STRING:
   case SBFI_TEXT:

@@ -15,24 +15,33 @@ typedef struct mjcf_flex {
   uint32_t contact_type, contact_with; /* MuJoCo's bits */
 } mjcf_flex;
 
+/* Arrays with an item per rigid body. */
+typedef struct mjcf_rigid {
+  bool *elastic; /* moves points of elastic elements, which rules out a mocap body in MuJoCo */
+  int32_t *parent;
+  bool *is_written;
+  struct mjcf_extent *hull_extents;
+  uint32_t *hull_partners; /* bits of the flexes that it collides with */
+  uint8_t *jointed;        /* scratch */
+} mjcf_rigid;
+
+/* Counts of parts that the format cannot store. */
+typedef struct mjcf_unsupported {
+  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, without_level, loop_bounds,
+      goals, moduli, ratios, bending, sharing, selves;
+} mjcf_unsupported;
+
 typedef struct mjcf_writer {
   sbfi_export *e;
   sbfi_arena scratch;
   mjcf_flex *flexes;   /* (soft bodies) */
   bool *bone_has_pins; /* (bones) */
   bool *bone_elastic;  /* (bones) moves points of elastic elements, which rules out a mocap body in MuJoCo */
-  bool *rigid_elastic; /* (rigid bodies) the same */
   uint32_t *first, *next; /* (rigid bodies + 1), (2 * joints): lists of the joints' ends at each body; the
                              last: the world */
   bool *is_tree;          /* (joints) connects a body to its parent */
-  int32_t *parent;        /* (rigid bodies) */
-  bool *placed;           /* (rigid bodies) */
-  struct mjcf_extent *hull_extents; /* (rigid bodies) */
-  uint32_t *hull_partners;          /* (rigid bodies) bits of the flexes that it collides with */
-  uint8_t *jointed;                 /* (rigid bodies) scratch */
-  /* Counts of unsupported parts. */
-  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, without_level, loop_bounds,
-      goals, moduli, ratios, bending, sharing, selves;
+  mjcf_rigid rigid;
+  mjcf_unsupported unsupported;
 } mjcf_writer;
 
 /* A missing end of a joint. */

@@ -146,10 +146,10 @@ static void sort_flexes(mjcf_writer *w, const extent *softs, const extent *rigid
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
     if (w->flexes[i].level) all |= class_bit(i);
   for (uint32_t k = 0; k < CLASSES; k++) collides[k] = all & ~class_bit(k);
-  for (uint32_t b = 0; b < asset->rigid_bodies.count; b++) w->hull_partners[b] = all;
+  for (uint32_t b = 0; b < asset->rigid_bodies.count; b++) w->rigid.hull_partners[b] = all;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     if (!w->flexes[i].level) continue;
-    w->sharing += i >= CLASSES;
+    w->unsupported.sharing += i >= CLASSES;
     for (uint32_t j = 0; j < i; j++) {
       if (!w->flexes[j].level || flexes_collide(&w->flexes[i], &softs[i], &w->flexes[j], &softs[j])) continue;
       collides[class_of(i)] &= ~class_bit(j);
@@ -158,7 +158,7 @@ static void sort_flexes(mjcf_writer *w, const extent *softs, const extent *rigid
     for (uint32_t b = 0; b < asset->rigid_bodies.count; b++)
       if (!has_hull(&asset->rigid_bodies.at[b]) ||
           !flex_collides_with_hull(w, &w->flexes[i], &softs[i], b, &rigids[b]))
-        w->hull_partners[b] &= ~class_bit(i);
+        w->rigid.hull_partners[b] &= ~class_bit(i);
   }
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_collision *c = &asset->soft_bodies.at[i].collision;
@@ -171,18 +171,19 @@ bool sbfi_mjcf_collect_contacts(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   uint32_t bodies = asset->rigid_bodies.count, softs = asset->soft_bodies.count;
   extent *of_softs = sbfi_arena_allocate(&w->scratch, (size_t)softs + 1, sizeof *of_softs);
-  w->hull_extents = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->hull_extents);
-  w->hull_partners = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->hull_partners);
-  w->jointed = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->jointed);
-  if (!of_softs || !w->hull_extents || !w->hull_partners || !w->jointed) return false;
+  w->rigid.hull_extents = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->rigid.hull_extents);
+  w->rigid.hull_partners =
+      sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->rigid.hull_partners);
+  w->rigid.jointed = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->rigid.jointed);
+  if (!of_softs || !w->rigid.hull_extents || !w->rigid.hull_partners || !w->rigid.jointed) return false;
   for (uint32_t i = 0; i < softs; i++)
     if (w->flexes[i].level)
       of_softs[i] = extent_of(w->flexes[i].positions, w->flexes[i].level->positions.count);
   for (uint32_t i = 0; i < bodies; i++)
     if (has_hull(&asset->rigid_bodies.at[i]))
-      w->hull_extents[i] = extent_of(
+      w->rigid.hull_extents[i] = extent_of(
           asset->rigid_bodies.at[i].hull->positions.at, asset->rigid_bodies.at[i].hull->positions.count);
-  sort_flexes(w, of_softs, w->hull_extents);
+  sort_flexes(w, of_softs, w->rigid.hull_extents);
   return true;
 }
 
@@ -197,7 +198,7 @@ void sbfi_mjcf_flex_bits(mjcf_writer *w, const mjcf_flex *flex) {
 void sbfi_mjcf_hull_bits(mjcf_writer *w, uint32_t body) {
   const sbf_rigid_body *rigid = &w->e->asset->rigid_bodies.at[body];
   if (rigid->layer && rigid->mask)
-    write_bits(w, HULL_BIT, HOST_BIT | HULL_BIT | w->hull_partners[body]);
+    write_bits(w, HULL_BIT, HOST_BIT | HULL_BIT | w->rigid.hull_partners[body]);
   else
     write_bits(w, 0, 0);
 }
@@ -206,7 +207,7 @@ void sbfi_mjcf_hull_bits(mjcf_writer *w, uint32_t body) {
 
 static bool hulls_collide(const mjcf_writer *w, uint32_t a, uint32_t b) {
   const sbf_rigid_body *bodies = w->e->asset->rigid_bodies.at;
-  const extent *of_a = &w->hull_extents[a], *of_b = &w->hull_extents[b];
+  const extent *of_a = &w->rigid.hull_extents[a], *of_b = &w->rigid.hull_extents[b];
   return layers_collide(bodies[a].layer, bodies[a].mask, bodies[b].layer, bodies[b].mask) &&
          are_separated(of_a, bodies[a].hull, of_b, bodies[b].hull, -sunk_depth(of_a, of_b));
 }
@@ -225,18 +226,18 @@ void sbfi_mjcf_write_excludes(mjcf_writer *w) {
   enum { MAY_COLLIDE = 1, JOINED = 2 };
   sbfi_text_string(&w->e->text, "  <contact>\n");
   for (uint32_t a = 0; a < asset->rigid_bodies.count; a++) {
-    for (uint32_t b = a + 1; b < asset->rigid_bodies.count; b++) w->jointed[b] = 0;
+    for (uint32_t b = a + 1; b < asset->rigid_bodies.count; b++) w->rigid.jointed[b] = 0;
     for (uint32_t j = 0; j < asset->joints.count; j++) {
       const sbf_joint *joint = &asset->joints.at[j];
       int32_t b = joint->body_a == (int32_t)a   ? joint->body_b
                   : joint->body_b == (int32_t)a ? joint->body_a
                                                 : SBF_NONE;
-      if (b > (int32_t)a) w->jointed[b] |= joint->collide ? MAY_COLLIDE : JOINED;
+      if (b > (int32_t)a) w->rigid.jointed[b] |= joint->collide ? MAY_COLLIDE : JOINED;
     }
     for (uint32_t b = a + 1; b < asset->rigid_bodies.count; b++) {
-      bool is_separate = w->jointed[b] & JOINED;
-      if (!w->jointed[b] && has_hull(&asset->rigid_bodies.at[a]) && has_hull(&asset->rigid_bodies.at[b]) &&
-          !(is_kinematic(asset, a) && is_kinematic(asset, b)))
+      bool is_separate = w->rigid.jointed[b] & JOINED;
+      if (!w->rigid.jointed[b] && has_hull(&asset->rigid_bodies.at[a]) &&
+          has_hull(&asset->rigid_bodies.at[b]) && !(is_kinematic(asset, a) && is_kinematic(asset, b)))
         is_separate = !hulls_collide(w, a, b);
       if (is_separate) write_exclude(w, a, b);
     }

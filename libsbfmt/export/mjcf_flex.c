@@ -29,13 +29,13 @@ static void apply_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
   for (uint32_t k = 0; k < set->points.count; k++) {
     uint32_t p = set->points.at[k];
     if (sbfi_export_pin_weight(set, k) < 1) {
-      w->goals++;
+      w->unsupported.goals++;
       continue;
     }
     flex->holder[p] = s;
     if (set->bone >= 0) w->bone_has_pins[set->bone] = true;
     if (set->bone >= 0 && flex->dim > 1) w->bone_elastic[set->bone] = true;
-    if (set->rigid_body >= 0 && flex->dim > 1) w->rigid_elastic[set->rigid_body] = true;
+    if (set->rigid_body >= 0 && flex->dim > 1) w->rigid.elastic[set->rigid_body] = true;
     if (!set->offsets.count) continue;
     sbf_vec3 at = set->offsets.at[k], from = {0, 0, 0};
     if (set->bone >= 0) {
@@ -68,12 +68,12 @@ bool sbfi_mjcf_collect_flexes(mjcf_writer *w) {
   w->flexes = sbfi_arena_allocate(&w->scratch, bodies + 1, sizeof *w->flexes);
   w->bone_has_pins = sbfi_arena_allocate(&w->scratch, asset->bones.count + 1, sizeof *w->bone_has_pins);
   w->bone_elastic = sbfi_arena_allocate(&w->scratch, asset->bones.count + 1, sizeof *w->bone_elastic);
-  w->rigid_elastic =
-      sbfi_arena_allocate(&w->scratch, asset->rigid_bodies.count + 1, sizeof *w->rigid_elastic);
-  if (!w->flexes || !w->bone_has_pins || !w->bone_elastic || !w->rigid_elastic) return false;
+  w->rigid.elastic =
+      sbfi_arena_allocate(&w->scratch, asset->rigid_bodies.count + 1, sizeof *w->rigid.elastic);
+  if (!w->flexes || !w->bone_has_pins || !w->bone_elastic || !w->rigid.elastic) return false;
   for (uint32_t b = 0; b < bodies; b++) {
     choose_level(&w->flexes[b], &asset->soft_bodies.at[b]);
-    if (!w->flexes[b].level) w->without_level++;
+    if (!w->flexes[b].level) w->unsupported.without_level++;
     if (w->flexes[b].level && !fill_flex(w, &w->flexes[b])) return false;
   }
   return true;
@@ -89,7 +89,7 @@ static void write_point(mjcf_writer *w, const mjcf_flex *flex, uint32_t b, uint3
   sbfi_text *text = &w->e->text;
   float mass = sbfi_mjcf_point_mass(flex, p);
   float radius = flex->body->collision.particle_radius;
-  if (!(flex->masses[p] > 0)) w->massless++;
+  if (!(flex->masses[p] > 0)) w->unsupported.massless++;
   if (radius < 1e-3f) radius = 1e-3f;
   /* Slide joints only: moments have no effect, but are required. */
   float moment = 0.4f * mass * radius * radius;
@@ -207,7 +207,7 @@ static bool write_matter(mjcf_writer *w, const mjcf_flex *flex) {
     sbfi_mjcf_write_f32(w, "stiffness", value);
     sbfi_mjcf_write_f32(w, "damping", matter->stiffness_damping * value);
   } else {
-    w->ratios += matter->poisson_ratio != sbfi_mjcf_ratio(flex->body);
+    w->unsupported.ratios += matter->poisson_ratio != sbfi_mjcf_ratio(flex->body);
     sbfi_text_string(&w->e->text, "<elasticity");
     sbfi_mjcf_write_f32(w, "young", value);
     sbfi_mjcf_write_f32(w, "poisson", sbfi_mjcf_ratio(flex->body));
@@ -215,12 +215,12 @@ static bool write_matter(mjcf_writer *w, const mjcf_flex *flex) {
     if (flex->dim == 2) {
       /* MuJoCo's compiler rejects bending if a point is pinned. */
       bool pinned = is_point_pinned(flex);
-      w->bending += pinned;
+      w->unsupported.bending += pinned;
       sbfi_mjcf_write_f32(w, "thickness", matter->thickness);
       sbfi_export_format(w->e, " elastic2d=\"%s\"", pinned ? "stretch" : "both");
     }
   }
-  w->moduli += differ;
+  w->unsupported.moduli += differ;
   sbfi_text_string(&w->e->text, "/>");
   return true;
 }
@@ -259,7 +259,7 @@ static void write_vertices(mjcf_writer *w, const mjcf_flex *flex, uint32_t b) {
 bool sbfi_mjcf_write_flexes(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   sbfi_text *text = &w->e->text;
-  if (w->without_level == asset->soft_bodies.count) return true;
+  if (w->unsupported.without_level == asset->soft_bodies.count) return true;
   sbfi_text_string(text, "  <deformable>\n");
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const mjcf_flex *flex = &w->flexes[b];
@@ -275,7 +275,7 @@ bool sbfi_mjcf_write_flexes(mjcf_writer *w) {
     sbfi_text_char(text, '>');
     /* Crossing springs overlap at rest. */
     bool self = collision->self && flex->dim > 1;
-    w->selves += collision->self && !self;
+    w->unsupported.selves += collision->self && !self;
     sbfi_export_format(w->e, "<contact selfcollide=\"%s\"", self ? "auto" : "none");
     sbfi_mjcf_flex_bits(w, flex);
     sbfi_text_string(text, " friction=\"");

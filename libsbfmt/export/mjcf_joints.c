@@ -56,7 +56,7 @@ static void find_motions(mjcf_writer *w, const sbf_joint *joint, motion motions[
         (motion){!(sbfi_joint_is_locked(joint->kind) >> k & 1), false, false, -INFINITY, INFINITY, 0, 0, 0};
   for (uint32_t i = 0; i < joint->limits.count; i++) {
     const sbf_limit *limit = &joint->limits.at[i];
-    w->soft_limits += limit->stiffness > 0;
+    w->unsupported.soft_limits += limit->stiffness > 0;
     for (unsigned k = 0; k < 6; k++) {
       bool cone = limit->target == SBF_JOINT_AXIS_SWING && k >= SBF_JOINT_AXIS_SWING_Y;
       if (k != (unsigned)limit->target && !cone) continue;
@@ -68,7 +68,8 @@ static void find_motions(mjcf_writer *w, const sbf_joint *joint, motion motions[
   }
   for (uint32_t i = 0; i < joint->drives.count; i++) {
     const sbf_drive *drive = &joint->drives.at[i];
-    w->drives += drive->velocity != 0 || drive->maximum > 0 || drive->target == SBF_JOINT_AXIS_DISTANCE;
+    w->unsupported.drives +=
+        drive->velocity != 0 || drive->maximum > 0 || drive->target == SBF_JOINT_AXIS_DISTANCE;
     for (unsigned k = 0; k < 6; k++) {
       bool cone = drive->target == SBF_JOINT_AXIS_SWING && k >= SBF_JOINT_AXIS_SWING_Y;
       if (k != (unsigned)drive->target && !cone) continue;
@@ -100,8 +101,8 @@ void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t inde
   const sbf_vec3 anchor = forward ? joint->frame_b.position : joint->frame_a.position;
   find_motions(w, joint, motions);
   coordinates_at_rest(w->e->asset, joint, rest);
-  w->breaking += joint->break_force > 0 || joint->break_torque > 0;
-  w->touching += joint->collide;
+  w->unsupported.breaking += joint->break_force > 0 || joint->break_torque > 0;
+  w->unsupported.touching += joint->collide;
   bool ball = true;
   for (int k = 3; k < 6; k++) ball = ball && motions[k].free && !motions[k].bounded && !motions[k].driven;
   for (int i = 0; i < 6; i++) {
@@ -173,8 +174,9 @@ static bool range_of(const sbf_joint *joint, float *min, float *max) {
 
 static void write_equality(mjcf_writer *w, const sbf_joint *joint, uint32_t index) {
   float min, max;
-  if (joint->kind != SBF_JOINT_KIND_DISTANCE) w->loop_bounds += joint->limits.count + joint->drives.count;
-  w->breaking += joint->break_force > 0 || joint->break_torque > 0;
+  if (joint->kind != SBF_JOINT_KIND_DISTANCE)
+    w->unsupported.loop_bounds += joint->limits.count + joint->drives.count;
+  w->unsupported.breaking += joint->break_force > 0 || joint->break_torque > 0;
   if (joint->kind == SBF_JOINT_KIND_FIXED) {
     sbfi_text_string(&w->e->text, "    <weld name=\"");
     sbfi_mjcf_name(w, joint->id, index);
@@ -194,9 +196,9 @@ static void write_equality(mjcf_writer *w, const sbf_joint *joint, uint32_t inde
     sbfi_mjcf_name(w, joint->id, index);
     sbfi_text_string(&w->e->text, "\"/>\n");
   } else if (joint->kind == SBF_JOINT_KIND_PULLEY) {
-    w->pulleys++;
+    w->unsupported.pulleys++;
   } else {
-    w->loops++;
+    w->unsupported.loops++;
   }
 }
 

@@ -21,9 +21,9 @@ bool sbfi_mjcf_collect_joints(mjcf_writer *w) {
   w->first = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->first);
   w->next = sbfi_arena_allocate(&w->scratch, (size_t)joints + 1, 2 * sizeof *w->next);
   w->is_tree = sbfi_arena_allocate(&w->scratch, (size_t)joints + 1, sizeof *w->is_tree);
-  w->parent = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->parent);
-  w->placed = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->placed);
-  if (!sets || !w->first || !w->next || !w->is_tree || !w->parent || !w->placed) return false;
+  w->rigid.parent = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->rigid.parent);
+  w->rigid.is_written = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->rigid.is_written);
+  if (!sets || !w->first || !w->next || !w->is_tree || !w->rigid.parent || !w->rigid.is_written) return false;
   sbfi_sets_begin(sets, bodies + 1);
   for (uint32_t i = 0; i <= bodies; i++) w->first[i] = MJCF_END;
   for (uint32_t i = 0; i < bodies; i++)
@@ -82,7 +82,7 @@ static void write_matter(mjcf_writer *w, const sbf_rigid_body *body) {
   sbf_rigid_measures measures;
   sbf_rigid_body_measure(body, &measures);
   if (!(measures.mass > 0)) {
-    w->massless += body->motion == SBF_BODY_MOTION_DYNAMIC;
+    w->unsupported.massless += body->motion == SBF_BODY_MOTION_DYNAMIC;
     return;
   }
   const sbf_vec3 from = body->center, at = measures.center;
@@ -106,12 +106,12 @@ static void open_body(mjcf_writer *w, uint32_t i, int32_t parent, uint32_t end) 
   sbfi_text *text = &w->e->text;
   const sbf_vec3 from = parent < 0 ? (sbf_vec3){0, 0, 0} : asset->rigid_bodies.at[parent].center;
   bool kinematic = is_kinematic(asset, (int32_t)i);
-  w->placed[i] = true;
-  w->parent[i] = parent;
+  w->rigid.is_written[i] = true;
+  w->rigid.parent[i] = parent;
   sbfi_text_string(text, "    <body name=\"");
   sbfi_mjcf_rigid_name(w, (int32_t)i);
   sbfi_text_char(text, '"');
-  if (kinematic && !w->rigid_elastic[i]) sbfi_text_string(text, " mocap=\"true\"");
+  if (kinematic && !w->rigid.elastic[i]) sbfi_text_string(text, " mocap=\"true\"");
   sbfi_mjcf_write_vec3(
       w, "pos", (sbf_vec3){body->center.x - from.x, body->center.y - from.y, body->center.z - from.z});
   if (body->gravity_scale != 1) sbfi_mjcf_write_f32(w, "gravcomp", 1 - body->gravity_scale);
@@ -159,12 +159,12 @@ static void write_tree(mjcf_writer *w, uint32_t root, uint32_t end) {
     uint32_t mine = w->first[at];
     if (mine == MJCF_END) {
       sbfi_text_string(&w->e->text, "    </body>\n");
-      at = w->parent[at];
+      at = w->rigid.parent[at];
       continue;
     }
     w->first[at] = w->next[mine];
     int32_t other = body_at(asset, mine ^ 1);
-    if (!w->is_tree[mine / 2] || other < 0 || w->placed[other]) continue;
+    if (!w->is_tree[mine / 2] || other < 0 || w->rigid.is_written[other]) continue;
     open_body(w, (uint32_t)other, at, mine);
     write_sites(w, (uint32_t)other);
     at = other;
@@ -179,8 +179,8 @@ void sbfi_mjcf_write_bodies(mjcf_writer *w) {
     if (is_kinematic(asset, (int32_t)i)) write_tree(w, i, MJCF_END);
   for (uint32_t end = w->first[bodies]; end != MJCF_END; end = w->next[end]) {
     int32_t other = body_at(asset, end ^ 1);
-    if (w->is_tree[end / 2] && other >= 0 && !w->placed[other]) write_tree(w, (uint32_t)other, end);
+    if (w->is_tree[end / 2] && other >= 0 && !w->rigid.is_written[other]) write_tree(w, (uint32_t)other, end);
   }
   for (uint32_t i = 0; i < bodies; i++)
-    if (!w->placed[i]) write_tree(w, i, MJCF_END);
+    if (!w->rigid.is_written[i]) write_tree(w, i, MJCF_END);
 }

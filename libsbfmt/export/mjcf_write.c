@@ -46,15 +46,20 @@ sbf_status sbfi_export_mjcf(sbfi_export *e) {
   sbfi_arena_free(&w.scratch);
   if (!written) return sbfi_export_no_memory(e);
   const sbfi_left_out things[] = {
-      {w.without_level, "soft bodies without tetrahedra or springs (build makes them)"},
-      {w.goals, "goal springs"}, {w.moduli, "soft bodies whose elements differ (their mean is written)"},
-      {w.bending, "held sheets' bending"}, {w.ratios, "Poisson ratios outside 0 to 0.499"},
-      {w.massless, "moving bodies with a mass of 0"}, {w.loops, "joints that close loops"},
-      {w.loop_bounds, "limits and drives of joints that close loops"}, {w.pulleys, "pulleys"},
-      {w.soft_limits, "limits' springs"}, {w.drives, "speeds, limits and distances of drives"},
-      {w.breaking, "breaking loads"}, {w.touching, "contacts between bodies that a joint connects"},
-      {w.selves, "self-contacts of bodies made of springs"},
-      {w.sharing, "soft bodies whose contacts share collision bits"},
+      {w.unsupported.without_level, "soft bodies without tetrahedra or springs (build makes them)"},
+      {w.unsupported.goals, "goal springs"},
+      {w.unsupported.moduli, "soft bodies whose elements differ (their mean is written)"},
+      {w.unsupported.bending, "held sheets' bending"},
+      {w.unsupported.ratios, "Poisson ratios outside 0 to 0.499"},
+      {w.unsupported.massless, "moving bodies with a mass of 0"},
+      {w.unsupported.loops, "joints that close loops"},
+      {w.unsupported.loop_bounds, "limits and drives of joints that close loops"},
+      {w.unsupported.pulleys, "pulleys"}, {w.unsupported.soft_limits, "limits' springs"},
+      {w.unsupported.drives, "speeds, limits and distances of drives"},
+      {w.unsupported.breaking, "breaking loads"},
+      {w.unsupported.touching, "contacts between bodies that a joint connects"},
+      {w.unsupported.selves, "self-contacts of bodies made of springs"},
+      {w.unsupported.sharing, "soft bodies whose contacts share collision bits"},
       {asset->cross_springs.count, "springs between bodies"}};
   sbfi_export_left_out(e, "MJCF", things, sizeof things / sizeof *things);
   const sbfi_left_out others[] = {{asset->render_meshes.count, "render meshes"},

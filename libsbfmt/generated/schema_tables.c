@@ -29,47 +29,47 @@ static const char *const interpolation_values[] = {"linear", "step", "cubic"};
 static const char *const field_kind_values[] = {"uniform", "radial", "vortex", "drag"};
 
 static const sbfi_field author_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_author, name), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "contact", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_author, contact), .width = 1, .unit = "", .default_text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_author, name), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "contact", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_author, contact), .width = 1, .unit = "", .initial.text = ""},
 };
 static const sbfi_element author_element = {"author", "author", sizeof(sbf_author), 0, 2, author_fields, NULL};
 
 static const sbfi_field source_fields[] = {
-  {.name = "path", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_source, path), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "sha256", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_source, sha256), .width = 1, .unit = "", .default_text = ""},
+  {.name = "path", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_source, path), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "sha256", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_source, sha256), .width = 1, .unit = "", .initial.text = ""},
 };
 static const sbfi_element source_element = {"source", "source", sizeof(sbf_source), 0, 2, source_fields, NULL};
 
 static const sbfi_field info_fields[] = {
-  {.name = "title", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_info, title), .width = 1, .unit = "", .default_text = ""},
-  {.name = "licence", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_info, licence), .width = 1, .unit = "", .default_text = ""},
-  {.name = "copyright", .type = SBFI_STRING, .number = 3, .since_minor = 0, .offset = offsetof(sbf_info, copyright), .width = 1, .unit = "", .default_text = ""},
-  {.name = "tool", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_info, tool), .width = 1, .unit = "", .default_text = ""},
-  {.name = "comment", .type = SBFI_STRING, .number = 5, .since_minor = 0, .offset = offsetof(sbf_info, comment), .width = 1, .unit = "", .default_text = ""},
-  {.name = "authors", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_info, authors), .width = 1, .unit = "", .element = &author_element, .xml = "author"},
-  {.name = "sources", .type = SBFI_MANY, .number = 7, .since_minor = 0, .offset = offsetof(sbf_info, sources), .width = 1, .unit = "", .element = &source_element, .xml = "source"},
-  {.name = "mass", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_info, mass), .width = 1, .unit = "kg", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "title", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_info, title), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "licence", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_info, licence), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "copyright", .type = SBFI_STRING, .number = 3, .since_minor = 0, .offset = offsetof(sbf_info, copyright), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "tool", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_info, tool), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "comment", .type = SBFI_STRING, .number = 5, .since_minor = 0, .offset = offsetof(sbf_info, comment), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "authors", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_info, authors), .width = 1, .unit = "", .element = &author_element, .tag.xml = "author"},
+  {.name = "sources", .type = SBFI_MANY, .number = 7, .since_minor = 0, .offset = offsetof(sbf_info, sources), .width = 1, .unit = "", .element = &source_element, .tag.xml = "source"},
+  {.name = "mass", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_info, mass), .width = 1, .unit = "kg", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "low", .type = SBFI_VEC3, .number = 9, .since_minor = 0, .offset = offsetof(sbf_info, low), .width = 3, .unit = "m"},
   {.name = "high", .type = SBFI_VEC3, .number = 10, .since_minor = 0, .offset = offsetof(sbf_info, high), .width = 3, .unit = "m"},
 };
 static const sbfi_element info_element = {"info", "info", sizeof(sbf_info), 0, 10, info_fields, NULL};
 
 static const sbfi_field derivation_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_derivation, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "tool", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_derivation, tool), .width = 1, .unit = "", .default_text = ""},
-  {.name = "settings", .type = SBFI_STRING, .number = 3, .since_minor = 0, .offset = offsetof(sbf_derivation, settings), .width = 1, .unit = "", .default_text = ""},
-  {.name = "source_hash", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_derivation, source_hash), .width = 1, .unit = "", .default_text = ""},
-  {.name = "mass", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_derivation, mass), .width = 1, .unit = "kg", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_derivation, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "tool", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_derivation, tool), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "settings", .type = SBFI_STRING, .number = 3, .since_minor = 0, .offset = offsetof(sbf_derivation, settings), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "source_hash", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_derivation, source_hash), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "mass", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_derivation, mass), .width = 1, .unit = "kg", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "low", .type = SBFI_VEC3, .number = 6, .since_minor = 0, .offset = offsetof(sbf_derivation, low), .width = 3, .unit = "m"},
   {.name = "high", .type = SBFI_VEC3, .number = 7, .since_minor = 0, .offset = offsetof(sbf_derivation, high), .width = 3, .unit = "m"},
 };
 static const sbfi_element derivation_element = {"derivation", "derivation", sizeof(sbf_derivation), 0, 7, derivation_fields, NULL};
 
 static const sbfi_field texture_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_texture, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_texture, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "path", .type = SBFI_STRING, .number = 3, .since_minor = 0, .offset = offsetof(sbf_texture, path), .width = 1, .unit = "", .default_text = ""},
-  {.name = "media_type", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_texture, media_type), .width = 1, .unit = "", .default_text = ""},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_texture, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_texture, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "path", .type = SBFI_STRING, .number = 3, .since_minor = 0, .offset = offsetof(sbf_texture, path), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "media_type", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_texture, media_type), .width = 1, .unit = "", .initial.text = ""},
   {.name = "bytes", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_texture, bytes), .width = 1, .unit = "", .item = SBFI_ITEM_U8},
 };
 static const sbfi_element texture_element = {"texture", "texture", sizeof(sbf_texture), SBFI_KIND('T', 'X', 'T', 'R'), 5, texture_fields, NULL};
@@ -77,38 +77,38 @@ static const sbfi_element texture_element = {"texture", "texture", sizeof(sbf_te
 static const sbfi_field uv_transform_fields[] = {
   {.name = "offset", .type = SBFI_VEC2, .number = 1, .since_minor = 0, .offset = offsetof(sbf_uv_transform, offset), .width = 2, .unit = ""},
   {.name = "rotation", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_uv_transform, rotation), .width = 1, .unit = "rad"},
-  {.name = "scale", .type = SBFI_VEC2, .number = 3, .since_minor = 0, .offset = offsetof(sbf_uv_transform, scale), .width = 2, .unit = "", .defaults = {1.0f, 1.0f}},
+  {.name = "scale", .type = SBFI_VEC2, .number = 3, .since_minor = 0, .offset = offsetof(sbf_uv_transform, scale), .width = 2, .unit = "", .initial.scalars = {1.0f, 1.0f}},
 };
 static const sbfi_element uv_transform_element = {"uv_transform", "uv_transform", sizeof(sbf_uv_transform), 0, 3, uv_transform_fields, NULL};
 
 static const sbfi_field material_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_material, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_material, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "base_color", .type = SBFI_VEC4, .number = 3, .since_minor = 0, .offset = offsetof(sbf_material, base_color), .width = 4, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f, 1.0f, 1.0f, 1.0f}},
-  {.name = "metallic", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_material, metallic), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.0f}},
-  {.name = "roughness", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_material, roughness), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
-  {.name = "emissive", .type = SBFI_VEC3, .number = 6, .since_minor = 0, .offset = offsetof(sbf_material, emissive), .width = 3, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "alpha_mode", .type = SBFI_ENUM, .number = 7, .since_minor = 0, .offset = offsetof(sbf_material, alpha_mode), .width = 1, .unit = "", .default_integer = 0, .values = alpha_mode_values, .value_count = 3},
-  {.name = "alpha_cutoff", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_material, alpha_cutoff), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.5f}},
-  {.name = "double_sided", .type = SBFI_BOOL, .number = 9, .since_minor = 0, .offset = offsetof(sbf_material, double_sided), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "base_color_texture", .type = SBFI_REF, .number = 10, .since_minor = 0, .offset = offsetof(sbf_material, base_color_texture), .width = 1, .unit = "", .target = offsetof(sbf_asset, textures), .target_name = "textures"},
-  {.name = "metallic_roughness_texture", .type = SBFI_REF, .number = 11, .since_minor = 0, .offset = offsetof(sbf_material, metallic_roughness_texture), .width = 1, .unit = "", .target = offsetof(sbf_asset, textures), .target_name = "textures"},
-  {.name = "normal_texture", .type = SBFI_REF, .number = 12, .since_minor = 0, .offset = offsetof(sbf_material, normal_texture), .width = 1, .unit = "", .target = offsetof(sbf_asset, textures), .target_name = "textures"},
-  {.name = "base_color_uv", .type = SBFI_OPTIONAL, .number = 13, .since_minor = 1, .offset = offsetof(sbf_material, base_color_uv), .width = 1, .unit = "", .element = &uv_transform_element, .xml = "base_color_uv"},
-  {.name = "metallic_roughness_uv", .type = SBFI_OPTIONAL, .number = 14, .since_minor = 1, .offset = offsetof(sbf_material, metallic_roughness_uv), .width = 1, .unit = "", .element = &uv_transform_element, .xml = "metallic_roughness_uv"},
-  {.name = "normal_uv", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 1, .offset = offsetof(sbf_material, normal_uv), .width = 1, .unit = "", .element = &uv_transform_element, .xml = "normal_uv"},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_material, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_material, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "base_color", .type = SBFI_VEC4, .number = 3, .since_minor = 0, .offset = offsetof(sbf_material, base_color), .width = 4, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f, 1.0f, 1.0f, 1.0f}},
+  {.name = "metallic", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_material, metallic), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.0f}},
+  {.name = "roughness", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_material, roughness), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
+  {.name = "emissive", .type = SBFI_VEC3, .number = 6, .since_minor = 0, .offset = offsetof(sbf_material, emissive), .width = 3, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "alpha_mode", .type = SBFI_ENUM, .number = 7, .since_minor = 0, .offset = offsetof(sbf_material, alpha_mode), .width = 1, .unit = "", .initial.integer = 0, .words.at = alpha_mode_values, .words.count = 3},
+  {.name = "alpha_cutoff", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_material, alpha_cutoff), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.5f}},
+  {.name = "double_sided", .type = SBFI_BOOL, .number = 9, .since_minor = 0, .offset = offsetof(sbf_material, double_sided), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "base_color_texture", .type = SBFI_REF, .number = 10, .since_minor = 0, .offset = offsetof(sbf_material, base_color_texture), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, textures), .reference.name = "textures"},
+  {.name = "metallic_roughness_texture", .type = SBFI_REF, .number = 11, .since_minor = 0, .offset = offsetof(sbf_material, metallic_roughness_texture), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, textures), .reference.name = "textures"},
+  {.name = "normal_texture", .type = SBFI_REF, .number = 12, .since_minor = 0, .offset = offsetof(sbf_material, normal_texture), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, textures), .reference.name = "textures"},
+  {.name = "base_color_uv", .type = SBFI_OPTIONAL, .number = 13, .since_minor = 1, .offset = offsetof(sbf_material, base_color_uv), .width = 1, .unit = "", .element = &uv_transform_element, .tag.xml = "base_color_uv"},
+  {.name = "metallic_roughness_uv", .type = SBFI_OPTIONAL, .number = 14, .since_minor = 1, .offset = offsetof(sbf_material, metallic_roughness_uv), .width = 1, .unit = "", .element = &uv_transform_element, .tag.xml = "metallic_roughness_uv"},
+  {.name = "normal_uv", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 1, .offset = offsetof(sbf_material, normal_uv), .width = 1, .unit = "", .element = &uv_transform_element, .tag.xml = "normal_uv"},
 };
 static const sbfi_element material_element = {"material", "material", sizeof(sbf_material), 0, 15, material_fields, NULL};
 
 static const sbfi_field bone_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_bone, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_bone, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "parent", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_bone, parent), .width = 1, .unit = "", .earlier = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_bone, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_bone, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "parent", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_bone, parent), .width = 1, .unit = "", .earlier = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
   {.name = "head", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_bone, head), .width = 3, .unit = "m", .required = true},
-  {.name = "rotation", .type = SBFI_QUAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_bone, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
-  {.name = "length", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_bone, length), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "inherit_rotation", .type = SBFI_BOOL, .number = 7, .since_minor = 0, .offset = offsetof(sbf_bone, inherit_rotation), .width = 1, .unit = "", .default_integer = 1},
-  {.name = "inherit_scale", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_bone, inherit_scale), .width = 1, .unit = "", .default_integer = 1},
+  {.name = "rotation", .type = SBFI_QUAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_bone, rotation), .width = 4, .unit = "", .initial.scalars = {0, 0, 0, 1}},
+  {.name = "length", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_bone, length), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "inherit_rotation", .type = SBFI_BOOL, .number = 7, .since_minor = 0, .offset = offsetof(sbf_bone, inherit_rotation), .width = 1, .unit = "", .initial.integer = 1},
+  {.name = "inherit_scale", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_bone, inherit_scale), .width = 1, .unit = "", .initial.integer = 1},
 };
 static const sbfi_element bone_element = {"bone", "bone", sizeof(sbf_bone), 0, 8, bone_fields, NULL};
 
@@ -116,93 +116,93 @@ static const sbfi_length polygon_mesh_polygon_points_lengths[] = {{1, {{SBFI_TER
 static const sbfi_length polygon_mesh_polygon_points_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_polygon_mesh, positions)}}, "positions"};
 static const sbfi_length polygon_mesh_size = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_polygon_mesh, positions)}}, "positions"};
 static const sbfi_field polygon_mesh_fields[] = {
-  {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_polygon_mesh, target), .width = 1, .unit = "", .required = true, .values = mesh_target_values, .value_count = 3},
+  {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_polygon_mesh, target), .width = 1, .unit = "", .required = true, .words.at = mesh_target_values, .words.count = 3},
   {.name = "positions", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_polygon_mesh, positions), .width = 3, .unit = "m", .item = SBFI_ITEM_F32},
-  {.name = "polygon_sizes", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_polygon_mesh, polygon_sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .has_range = true, .min = 3.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "polygon_sizes", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_polygon_mesh, polygon_sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .range.is_stated = true, .range.min = 3.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "polygon_points", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_polygon_mesh, polygon_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = polygon_mesh_polygon_points_lengths, .index = &polygon_mesh_polygon_points_index},
 };
 static const sbfi_element polygon_mesh_element = {"polygon_mesh", "polygon_mesh", sizeof(sbf_polygon_mesh), 0, 4, polygon_mesh_fields, &polygon_mesh_size};
 
 static const sbfi_field rigid_body_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_rigid_body, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_rigid_body, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_rigid_body, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_rigid_body, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
-  {.name = "proposed", .type = SBFI_BOOL, .number = 5, .since_minor = 0, .offset = offsetof(sbf_rigid_body, proposed), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "motion", .type = SBFI_ENUM, .number = 6, .since_minor = 0, .offset = offsetof(sbf_rigid_body, motion), .width = 1, .unit = "", .default_integer = 0, .values = body_motion_values, .value_count = 2},
-  {.name = "mass", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_rigid_body, mass), .width = 1, .unit = "kg", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "density", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_rigid_body, density), .width = 1, .unit = "kg/m^3", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1000.0f}},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_rigid_body, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_rigid_body, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_rigid_body, bone), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_rigid_body, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
+  {.name = "proposed", .type = SBFI_BOOL, .number = 5, .since_minor = 0, .offset = offsetof(sbf_rigid_body, proposed), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "motion", .type = SBFI_ENUM, .number = 6, .since_minor = 0, .offset = offsetof(sbf_rigid_body, motion), .width = 1, .unit = "", .initial.integer = 0, .words.at = body_motion_values, .words.count = 2},
+  {.name = "mass", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_rigid_body, mass), .width = 1, .unit = "kg", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "density", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_rigid_body, density), .width = 1, .unit = "kg/m^3", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {1000.0f}},
   {.name = "center", .type = SBFI_VEC3, .number = 9, .since_minor = 0, .offset = offsetof(sbf_rigid_body, center), .width = 3, .unit = "m"},
-  {.name = "inertia", .type = SBFI_VEC3, .number = 10, .since_minor = 0, .offset = offsetof(sbf_rigid_body, inertia), .width = 3, .unit = "kg*m^2", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "inertia_rotation", .type = SBFI_QUAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_rigid_body, inertia_rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
-  {.name = "friction", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_rigid_body, friction), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.5f}},
-  {.name = "restitution", .type = SBFI_FLOAT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_rigid_body, restitution), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.0f}},
-  {.name = "gravity_scale", .type = SBFI_FLOAT, .number = 14, .since_minor = 0, .offset = offsetof(sbf_rigid_body, gravity_scale), .width = 1, .unit = "", .defaults = {1.0f}},
-  {.name = "layer", .type = SBFI_UINT, .number = 15, .since_minor = 0, .offset = offsetof(sbf_rigid_body, layer), .width = 1, .unit = "", .default_integer = 1u},
-  {.name = "mask", .type = SBFI_UINT, .number = 16, .since_minor = 0, .offset = offsetof(sbf_rigid_body, mask), .width = 1, .unit = "", .default_integer = 4294967295u},
-  {.name = "hull", .type = SBFI_OPTIONAL, .number = 17, .since_minor = 0, .offset = offsetof(sbf_rigid_body, hull), .width = 1, .unit = "", .element = &polygon_mesh_element, .xml = "polygon_mesh", .fixed_name = "target", .fixed_value = 2},
-  {.name = "hull_derived", .type = SBFI_REF, .number = 18, .since_minor = 0, .offset = offsetof(sbf_rigid_body, hull_derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
+  {.name = "inertia", .type = SBFI_VEC3, .number = 10, .since_minor = 0, .offset = offsetof(sbf_rigid_body, inertia), .width = 3, .unit = "kg*m^2", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "inertia_rotation", .type = SBFI_QUAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_rigid_body, inertia_rotation), .width = 4, .unit = "", .initial.scalars = {0, 0, 0, 1}},
+  {.name = "friction", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_rigid_body, friction), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.5f}},
+  {.name = "restitution", .type = SBFI_FLOAT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_rigid_body, restitution), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.0f}},
+  {.name = "gravity_scale", .type = SBFI_FLOAT, .number = 14, .since_minor = 0, .offset = offsetof(sbf_rigid_body, gravity_scale), .width = 1, .unit = "", .initial.scalars = {1.0f}},
+  {.name = "layer", .type = SBFI_UINT, .number = 15, .since_minor = 0, .offset = offsetof(sbf_rigid_body, layer), .width = 1, .unit = "", .initial.integer = 1u},
+  {.name = "mask", .type = SBFI_UINT, .number = 16, .since_minor = 0, .offset = offsetof(sbf_rigid_body, mask), .width = 1, .unit = "", .initial.integer = 4294967295u},
+  {.name = "hull", .type = SBFI_OPTIONAL, .number = 17, .since_minor = 0, .offset = offsetof(sbf_rigid_body, hull), .width = 1, .unit = "", .element = &polygon_mesh_element, .tag.xml = "polygon_mesh", .fixed.name = "target", .fixed.value = 2},
+  {.name = "hull_derived", .type = SBFI_REF, .number = 18, .since_minor = 0, .offset = offsetof(sbf_rigid_body, hull_derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
 };
 static const sbfi_element rigid_body_element = {"rigid_body", "rigid_body", sizeof(sbf_rigid_body), 0, 18, rigid_body_fields, NULL};
 
 static const sbfi_field frame_fields[] = {
   {.name = "position", .type = SBFI_VEC3, .number = 1, .since_minor = 0, .offset = offsetof(sbf_frame, position), .width = 3, .unit = "m"},
-  {.name = "rotation", .type = SBFI_QUAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_frame, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
+  {.name = "rotation", .type = SBFI_QUAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_frame, rotation), .width = 4, .unit = "", .initial.scalars = {0, 0, 0, 1}},
 };
 static const sbfi_element frame_element = {"frame", "frame", sizeof(sbf_frame), 0, 2, frame_fields, NULL};
 
 static const sbfi_field limit_fields[] = {
-  {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_limit, target), .width = 1, .unit = "", .required = true, .values = joint_axis_values, .value_count = 8},
+  {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_limit, target), .width = 1, .unit = "", .required = true, .words.at = joint_axis_values, .words.count = 8},
   {.name = "min", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_limit, min), .width = 1, .unit = "", .required = true},
   {.name = "max", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_limit, max), .width = 1, .unit = "", .required = true},
-  {.name = "stiffness", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_limit, stiffness), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "damping", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_limit, damping), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "restitution", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_limit, restitution), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false},
+  {.name = "stiffness", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_limit, stiffness), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "damping", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_limit, damping), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "restitution", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_limit, restitution), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false},
 };
 static const sbfi_element limit_element = {"limit", "limit", sizeof(sbf_limit), 0, 6, limit_fields, NULL};
 
 static const sbfi_field drive_fields[] = {
-  {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_drive, target), .width = 1, .unit = "", .required = true, .values = joint_axis_values, .value_count = 8},
+  {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_drive, target), .width = 1, .unit = "", .required = true, .words.at = joint_axis_values, .words.count = 8},
   {.name = "position", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_drive, position), .width = 1, .unit = ""},
   {.name = "velocity", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_drive, velocity), .width = 1, .unit = ""},
-  {.name = "stiffness", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_drive, stiffness), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "damping", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_drive, damping), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "maximum", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_drive, maximum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "stiffness", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_drive, stiffness), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "damping", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_drive, damping), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "maximum", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_drive, maximum), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
 };
 static const sbfi_element drive_element = {"drive", "drive", sizeof(sbf_drive), 0, 6, drive_fields, NULL};
 
 static const sbfi_field joint_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_joint, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_joint, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "kind", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_joint, kind), .width = 1, .unit = "", .required = true, .values = joint_kind_values, .value_count = 10},
-  {.name = "body_a", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_joint, body_a), .width = 1, .unit = "", .target = offsetof(sbf_asset, rigid_bodies), .target_name = "rigid_bodies"},
-  {.name = "body_b", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_joint, body_b), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, rigid_bodies), .target_name = "rigid_bodies"},
-  {.name = "frame_a", .type = SBFI_ONE, .number = 6, .since_minor = 0, .offset = offsetof(sbf_joint, frame_a), .width = 1, .unit = "", .element = &frame_element, .xml = "frame_a"},
-  {.name = "frame_b", .type = SBFI_ONE, .number = 7, .since_minor = 0, .offset = offsetof(sbf_joint, frame_b), .width = 1, .unit = "", .element = &frame_element, .xml = "frame_b"},
-  {.name = "proposed", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_joint, proposed), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "collide", .type = SBFI_BOOL, .number = 9, .since_minor = 0, .offset = offsetof(sbf_joint, collide), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "limits", .type = SBFI_MANY, .number = 10, .since_minor = 0, .offset = offsetof(sbf_joint, limits), .width = 1, .unit = "", .element = &limit_element, .xml = "limit", .wrapper = "limits"},
-  {.name = "drives", .type = SBFI_MANY, .number = 11, .since_minor = 0, .offset = offsetof(sbf_joint, drives), .width = 1, .unit = "", .element = &drive_element, .xml = "drive"},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_joint, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_joint, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "kind", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_joint, kind), .width = 1, .unit = "", .required = true, .words.at = joint_kind_values, .words.count = 10},
+  {.name = "body_a", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_joint, body_a), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, rigid_bodies), .reference.name = "rigid_bodies"},
+  {.name = "body_b", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_joint, body_b), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, rigid_bodies), .reference.name = "rigid_bodies"},
+  {.name = "frame_a", .type = SBFI_ONE, .number = 6, .since_minor = 0, .offset = offsetof(sbf_joint, frame_a), .width = 1, .unit = "", .element = &frame_element, .tag.xml = "frame_a"},
+  {.name = "frame_b", .type = SBFI_ONE, .number = 7, .since_minor = 0, .offset = offsetof(sbf_joint, frame_b), .width = 1, .unit = "", .element = &frame_element, .tag.xml = "frame_b"},
+  {.name = "proposed", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_joint, proposed), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "collide", .type = SBFI_BOOL, .number = 9, .since_minor = 0, .offset = offsetof(sbf_joint, collide), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "limits", .type = SBFI_MANY, .number = 10, .since_minor = 0, .offset = offsetof(sbf_joint, limits), .width = 1, .unit = "", .element = &limit_element, .tag.xml = "limit", .tag.wrapper = "limits"},
+  {.name = "drives", .type = SBFI_MANY, .number = 11, .since_minor = 0, .offset = offsetof(sbf_joint, drives), .width = 1, .unit = "", .element = &drive_element, .tag.xml = "drive"},
   {.name = "pulley_a", .type = SBFI_VEC3, .number = 12, .since_minor = 0, .offset = offsetof(sbf_joint, pulley_a), .width = 3, .unit = "m"},
   {.name = "pulley_b", .type = SBFI_VEC3, .number = 13, .since_minor = 0, .offset = offsetof(sbf_joint, pulley_b), .width = 3, .unit = "m"},
-  {.name = "pulley_ratio", .type = SBFI_FLOAT, .number = 14, .since_minor = 0, .offset = offsetof(sbf_joint, pulley_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.0f}},
-  {.name = "break_force", .type = SBFI_FLOAT, .number = 15, .since_minor = 0, .offset = offsetof(sbf_joint, break_force), .width = 1, .unit = "N", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "break_torque", .type = SBFI_FLOAT, .number = 16, .since_minor = 0, .offset = offsetof(sbf_joint, break_torque), .width = 1, .unit = "N*m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "derived", .type = SBFI_REF, .number = 17, .since_minor = 0, .offset = offsetof(sbf_joint, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
+  {.name = "pulley_ratio", .type = SBFI_FLOAT, .number = 14, .since_minor = 0, .offset = offsetof(sbf_joint, pulley_ratio), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {1.0f}},
+  {.name = "break_force", .type = SBFI_FLOAT, .number = 15, .since_minor = 0, .offset = offsetof(sbf_joint, break_force), .width = 1, .unit = "N", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "break_torque", .type = SBFI_FLOAT, .number = 16, .since_minor = 0, .offset = offsetof(sbf_joint, break_torque), .width = 1, .unit = "N*m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "derived", .type = SBFI_REF, .number = 17, .since_minor = 0, .offset = offsetof(sbf_joint, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
 };
 static const sbfi_element joint_element = {"joint", "joint", sizeof(sbf_joint), 0, 17, joint_fields, NULL};
 
 static const sbfi_length uv_set_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "parent.mesh.polygon_points"}};
 static const sbfi_length uv_set_corners_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_uv_set, coordinates)}}, "coordinates"};
 static const sbfi_field uv_set_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_uv_set, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_uv_set, name), .width = 1, .unit = "", .initial.text = ""},
   {.name = "coordinates", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_uv_set, coordinates), .width = 2, .unit = "", .item = SBFI_ITEM_F32},
   {.name = "corners", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_uv_set, corners), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = uv_set_corners_lengths, .index = &uv_set_corners_index},
 };
 static const sbfi_element uv_set_element = {"uv_set", "uv_set", sizeof(sbf_uv_set), 0, 3, uv_set_fields, NULL};
 
 static const sbfi_field material_slot_fields[] = {
-  {.name = "material", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_material_slot, material), .width = 1, .unit = "", .target = offsetof(sbf_asset, materials), .target_name = "materials"},
+  {.name = "material", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_material_slot, material), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, materials), .reference.name = "materials"},
 };
 static const sbfi_element material_slot_element = {"material_slot", "material_slot", sizeof(sbf_material_slot), 0, 1, material_slot_fields, NULL};
 
@@ -213,14 +213,14 @@ static const sbfi_length skin_weights_lengths[] = {{1, {{SBFI_TERM_COUNT, 0, off
 static const sbfi_field skin_fields[] = {
   {.name = "influence_counts", .type = SBFI_LIST, .number = 1, .since_minor = 0, .offset = offsetof(sbf_skin, influence_counts), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = skin_influence_counts_lengths},
   {.name = "bones", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_skin, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = skin_bones_lengths, .index = &skin_bones_index},
-  {.name = "weights", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_skin, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 1, .lengths = skin_weights_lengths},
+  {.name = "weights", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_skin, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .length_count = 1, .lengths = skin_weights_lengths},
 };
 static const sbfi_element skin_element = {"skin", "skin", sizeof(sbf_skin), 0, 3, skin_fields, NULL};
 
 static const sbfi_length shape_key_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"};
 static const sbfi_length shape_key_offsets_lengths[] = {{1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_shape_key, points)}}, "points"}};
 static const sbfi_field shape_key_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_shape_key, name), .width = 1, .unit = "", .required = true, .default_text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_shape_key, name), .width = 1, .unit = "", .required = true, .initial.text = ""},
   {.name = "points", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_shape_key, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &shape_key_points_index},
   {.name = "offsets", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_shape_key, offsets), .width = 3, .unit = "m", .item = SBFI_ITEM_F32, .length_count = 1, .lengths = shape_key_offsets_lengths},
 };
@@ -233,10 +233,10 @@ static const sbfi_length render_level_polygon_materials_index = {1, {{SBFI_TERM_
 static const sbfi_length render_level_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_level, polygon_points)}}, "polygon_points"}};
 static const sbfi_length render_level_corners_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "parent.mesh.polygon_points"};
 static const sbfi_field render_level_fields[] = {
-  {.name = "error", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_render_level, error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "polygon_sizes", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .has_range = true, .min = 3.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "error", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_render_level, error), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "polygon_sizes", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .range.is_stated = true, .range.min = 3.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "polygon_points", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = render_level_polygon_points_lengths, .index = &render_level_polygon_points_index},
-  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_render_level, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
+  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_render_level, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
   {.name = "polygon_materials", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_materials), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_level_polygon_materials_lengths, .index = &render_level_polygon_materials_index},
   {.name = "corners", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_render_level, corners), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_level_corners_lengths, .index = &render_level_corners_index},
 };
@@ -246,17 +246,17 @@ static const sbfi_length pin_set_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "p
 static const sbfi_length pin_set_offsets_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_pin_set, points)}}, "points"}};
 static const sbfi_length pin_set_weights_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_pin_set, points)}}, "points"}};
 static const sbfi_field pin_set_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pin_set, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "bone", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pin_set, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "rigid_body", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pin_set, rigid_body), .width = 1, .unit = "", .target = offsetof(sbf_asset, rigid_bodies), .target_name = "rigid_bodies"},
-  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_pin_set, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pin_set, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pin_set, bone), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "rigid_body", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pin_set, rigid_body), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, rigid_bodies), .reference.name = "rigid_bodies"},
+  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_pin_set, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
   {.name = "points", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_pin_set, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &pin_set_points_index},
   {.name = "offsets", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_pin_set, offsets), .width = 3, .unit = "m", .item = SBFI_ITEM_F32, .length_count = 2, .lengths = pin_set_offsets_lengths},
-  {.name = "weights", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_pin_set, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 3, .lengths = pin_set_weights_lengths},
-  {.name = "stiffness", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_pin_set, stiffness), .width = 1, .unit = "N/m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "damping", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_pin_set, damping), .width = 1, .unit = "N*s/m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "minimum", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_pin_set, minimum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false},
-  {.name = "maximum", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_pin_set, maximum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
+  {.name = "weights", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_pin_set, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .length_count = 3, .lengths = pin_set_weights_lengths},
+  {.name = "stiffness", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_pin_set, stiffness), .width = 1, .unit = "N/m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "damping", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_pin_set, damping), .width = 1, .unit = "N*s/m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "minimum", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_pin_set, minimum), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false},
+  {.name = "maximum", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_pin_set, maximum), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
 };
 static const sbfi_element pin_set_element = {"pin_set", "pin_set", sizeof(sbf_pin_set), 0, 11, pin_set_fields, NULL};
 
@@ -269,74 +269,74 @@ static const sbfi_length render_mesh_color_corners_lengths[] = {{1, {{SBFI_TERM_
 static const sbfi_length render_mesh_color_corners_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, colors)}}, "colors"};
 static const sbfi_length render_mesh_size = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.positions)}}, "mesh.positions"};
 static const sbfi_field render_mesh_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_render_mesh, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_render_mesh, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_render_mesh, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_render_mesh, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
-  {.name = "mesh", .type = SBFI_ONE, .number = 5, .since_minor = 0, .offset = offsetof(sbf_render_mesh, mesh), .width = 1, .unit = "", .element = &polygon_mesh_element, .xml = "polygon_mesh", .fixed_name = "target", .fixed_value = 0},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_render_mesh, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_render_mesh, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_render_mesh, bone), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_render_mesh, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
+  {.name = "mesh", .type = SBFI_ONE, .number = 5, .since_minor = 0, .offset = offsetof(sbf_render_mesh, mesh), .width = 1, .unit = "", .element = &polygon_mesh_element, .tag.xml = "polygon_mesh", .fixed.name = "target", .fixed.value = 0},
   {.name = "normals", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_render_mesh, normals), .width = 3, .unit = "", .item = SBFI_ITEM_F32},
   {.name = "normal_corners", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_render_mesh, normal_corners), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_mesh_normal_corners_lengths, .index = &render_mesh_normal_corners_index},
-  {.name = "uv_sets", .type = SBFI_MANY, .number = 8, .since_minor = 0, .offset = offsetof(sbf_render_mesh, uv_sets), .width = 1, .unit = "", .element = &uv_set_element, .xml = "uv_set"},
-  {.name = "material_slots", .type = SBFI_MANY, .number = 9, .since_minor = 0, .offset = offsetof(sbf_render_mesh, material_slots), .width = 1, .unit = "", .element = &material_slot_element, .xml = "material_slot"},
+  {.name = "uv_sets", .type = SBFI_MANY, .number = 8, .since_minor = 0, .offset = offsetof(sbf_render_mesh, uv_sets), .width = 1, .unit = "", .element = &uv_set_element, .tag.xml = "uv_set"},
+  {.name = "material_slots", .type = SBFI_MANY, .number = 9, .since_minor = 0, .offset = offsetof(sbf_render_mesh, material_slots), .width = 1, .unit = "", .element = &material_slot_element, .tag.xml = "material_slot"},
   {.name = "polygon_materials", .type = SBFI_LIST, .number = 10, .since_minor = 0, .offset = offsetof(sbf_render_mesh, polygon_materials), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_mesh_polygon_materials_lengths, .index = &render_mesh_polygon_materials_index},
-  {.name = "skin", .type = SBFI_OPTIONAL, .number = 11, .since_minor = 0, .offset = offsetof(sbf_render_mesh, skin), .width = 1, .unit = "", .element = &skin_element, .xml = "skin"},
-  {.name = "shape_keys", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_render_mesh, shape_keys), .width = 1, .unit = "", .element = &shape_key_element, .xml = "shape_key"},
+  {.name = "skin", .type = SBFI_OPTIONAL, .number = 11, .since_minor = 0, .offset = offsetof(sbf_render_mesh, skin), .width = 1, .unit = "", .element = &skin_element, .tag.xml = "skin"},
+  {.name = "shape_keys", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_render_mesh, shape_keys), .width = 1, .unit = "", .element = &shape_key_element, .tag.xml = "shape_key"},
   {.name = "source_points", .type = SBFI_LIST, .number = 13, .since_minor = 0, .offset = offsetof(sbf_render_mesh, source_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_mesh_source_points_lengths},
-  {.name = "levels", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_render_mesh, levels), .width = 1, .unit = "", .element = &render_level_element, .xml = "render_level"},
-  {.name = "pins", .type = SBFI_MANY, .number = 15, .since_minor = 0, .offset = offsetof(sbf_render_mesh, pins), .width = 1, .unit = "", .element = &pin_set_element, .xml = "pin_set", .wrapper = "pins"},
-  {.name = "colors", .type = SBFI_LIST, .number = 16, .since_minor = 1, .offset = offsetof(sbf_render_mesh, colors), .width = 4, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false},
+  {.name = "levels", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_render_mesh, levels), .width = 1, .unit = "", .element = &render_level_element, .tag.xml = "render_level"},
+  {.name = "pins", .type = SBFI_MANY, .number = 15, .since_minor = 0, .offset = offsetof(sbf_render_mesh, pins), .width = 1, .unit = "", .element = &pin_set_element, .tag.xml = "pin_set", .tag.wrapper = "pins"},
+  {.name = "colors", .type = SBFI_LIST, .number = 16, .since_minor = 1, .offset = offsetof(sbf_render_mesh, colors), .width = 4, .unit = "", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false},
   {.name = "color_corners", .type = SBFI_LIST, .number = 17, .since_minor = 1, .offset = offsetof(sbf_render_mesh, color_corners), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_mesh_color_corners_lengths, .index = &render_mesh_color_corners_index},
 };
 static const sbfi_element render_mesh_element = {"render_mesh", "render_mesh", sizeof(sbf_render_mesh), SBFI_KIND('M', 'E', 'S', 'H'), 17, render_mesh_fields, &render_mesh_size};
 
 static const sbfi_field attributes_fields[] = {
-  {.name = "density", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_attributes, density), .width = 1, .unit = "kg/m^3", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1000.0f}},
-  {.name = "mass", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_attributes, mass), .width = 1, .unit = "kg", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "area_density", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_attributes, area_density), .width = 1, .unit = "kg/m^2", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "thickness", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_attributes, thickness), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.001f}},
-  {.name = "young_modulus", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_attributes, young_modulus), .width = 1, .unit = "Pa", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {80000.0f}},
-  {.name = "poisson_ratio", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_attributes, poisson_ratio), .width = 1, .unit = "", .has_range = true, .min = -1.0, .max = 0.5, .min_open = true, .max_open = true, .defaults = {0.4f}},
-  {.name = "bending_stiffness", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_attributes, bending_stiffness), .width = 1, .unit = "N*m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "mass_damping", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_attributes, mass_damping), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "stiffness_damping", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_attributes, stiffness_damping), .width = 1, .unit = "s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_attributes, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.2f}},
-  {.name = "friction", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_attributes, friction), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.6f}},
-  {.name = "restitution", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_attributes, restitution), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.0f}},
-  {.name = "gravity_scale", .type = SBFI_FLOAT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_attributes, gravity_scale), .width = 1, .unit = "", .defaults = {1.0f}},
-  {.name = "media_friction", .type = SBFI_FLOAT, .number = 14, .since_minor = 0, .offset = offsetof(sbf_attributes, media_friction), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "density", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_attributes, density), .width = 1, .unit = "kg/m^3", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {1000.0f}},
+  {.name = "mass", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_attributes, mass), .width = 1, .unit = "kg", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "area_density", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_attributes, area_density), .width = 1, .unit = "kg/m^2", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "thickness", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_attributes, thickness), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.001f}},
+  {.name = "young_modulus", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_attributes, young_modulus), .width = 1, .unit = "Pa", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {80000.0f}},
+  {.name = "poisson_ratio", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_attributes, poisson_ratio), .width = 1, .unit = "", .range.is_stated = true, .range.min = -1.0, .range.max = 0.5, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.4f}},
+  {.name = "bending_stiffness", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_attributes, bending_stiffness), .width = 1, .unit = "N*m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "mass_damping", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_attributes, mass_damping), .width = 1, .unit = "1/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "stiffness_damping", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_attributes, stiffness_damping), .width = 1, .unit = "s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_attributes, damping_ratio), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.2f}},
+  {.name = "friction", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_attributes, friction), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.6f}},
+  {.name = "restitution", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_attributes, restitution), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.0f}},
+  {.name = "gravity_scale", .type = SBFI_FLOAT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_attributes, gravity_scale), .width = 1, .unit = "", .initial.scalars = {1.0f}},
+  {.name = "media_friction", .type = SBFI_FLOAT, .number = 14, .since_minor = 0, .offset = offsetof(sbf_attributes, media_friction), .width = 1, .unit = "1/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "pressure", .type = SBFI_FLOAT, .number = 15, .since_minor = 0, .offset = offsetof(sbf_attributes, pressure), .width = 1, .unit = "Pa"},
-  {.name = "pressure_mode", .type = SBFI_ENUM, .number = 16, .since_minor = 0, .offset = offsetof(sbf_attributes, pressure_mode), .width = 1, .unit = "", .default_integer = 0, .values = pressure_mode_values, .value_count = 3},
-  {.name = "strain_min", .type = SBFI_FLOAT, .number = 17, .since_minor = 0, .offset = offsetof(sbf_attributes, strain_min), .width = 1, .unit = "", .has_range = true, .min = -1.0, .max = 0.0, .min_open = false, .max_open = false, .defaults = {-1.0f}},
-  {.name = "strain_max", .type = SBFI_FLOAT, .number = 18, .since_minor = 0, .offset = offsetof(sbf_attributes, strain_max), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "yield_strain", .type = SBFI_FLOAT, .number = 19, .since_minor = 0, .offset = offsetof(sbf_attributes, yield_strain), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "yield_flow", .type = SBFI_FLOAT, .number = 20, .since_minor = 0, .offset = offsetof(sbf_attributes, yield_flow), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "tear_strain", .type = SBFI_FLOAT, .number = 21, .since_minor = 0, .offset = offsetof(sbf_attributes, tear_strain), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "sag_free", .type = SBFI_BOOL, .number = 22, .since_minor = 0, .offset = offsetof(sbf_attributes, sag_free), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "pressure_mode", .type = SBFI_ENUM, .number = 16, .since_minor = 0, .offset = offsetof(sbf_attributes, pressure_mode), .width = 1, .unit = "", .initial.integer = 0, .words.at = pressure_mode_values, .words.count = 3},
+  {.name = "strain_min", .type = SBFI_FLOAT, .number = 17, .since_minor = 0, .offset = offsetof(sbf_attributes, strain_min), .width = 1, .unit = "", .range.is_stated = true, .range.min = -1.0, .range.max = 0.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {-1.0f}},
+  {.name = "strain_max", .type = SBFI_FLOAT, .number = 18, .since_minor = 0, .offset = offsetof(sbf_attributes, strain_max), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "yield_strain", .type = SBFI_FLOAT, .number = 19, .since_minor = 0, .offset = offsetof(sbf_attributes, yield_strain), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "yield_flow", .type = SBFI_FLOAT, .number = 20, .since_minor = 0, .offset = offsetof(sbf_attributes, yield_flow), .width = 1, .unit = "1/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "tear_strain", .type = SBFI_FLOAT, .number = 21, .since_minor = 0, .offset = offsetof(sbf_attributes, tear_strain), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "sag_free", .type = SBFI_BOOL, .number = 22, .since_minor = 0, .offset = offsetof(sbf_attributes, sag_free), .width = 1, .unit = "", .initial.integer = 0},
 };
 static const sbfi_element attributes_element = {"attributes", "attributes", sizeof(sbf_attributes), 0, 22, attributes_fields, NULL};
 
 static const sbfi_field collision_fields[] = {
-  {.name = "particle_radius", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_collision, particle_radius), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.01f}},
-  {.name = "outer_thickness", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_collision, outer_thickness), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.005f}},
-  {.name = "inner_thickness", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_collision, inner_thickness), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.01f}},
-  {.name = "self", .type = SBFI_BOOL, .number = 4, .since_minor = 0, .offset = offsetof(sbf_collision, self), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "layer", .type = SBFI_UINT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_collision, layer), .width = 1, .unit = "", .default_integer = 1u},
-  {.name = "mask", .type = SBFI_UINT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_collision, mask), .width = 1, .unit = "", .default_integer = 4294967295u},
+  {.name = "particle_radius", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_collision, particle_radius), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.01f}},
+  {.name = "outer_thickness", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_collision, outer_thickness), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.005f}},
+  {.name = "inner_thickness", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_collision, inner_thickness), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.01f}},
+  {.name = "self", .type = SBFI_BOOL, .number = 4, .since_minor = 0, .offset = offsetof(sbf_collision, self), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "layer", .type = SBFI_UINT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_collision, layer), .width = 1, .unit = "", .initial.integer = 1u},
+  {.name = "mask", .type = SBFI_UINT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_collision, mask), .width = 1, .unit = "", .initial.integer = 4294967295u},
 };
 static const sbfi_element collision_element = {"collision", "collision", sizeof(sbf_collision), 0, 6, collision_fields, NULL};
 
 static const sbfi_length weight_map_values_lengths[] = {{1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"}};
 static const sbfi_field weight_map_fields[] = {
-  {.name = "property", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_weight_map, property), .width = 1, .unit = "", .required = true, .values = weight_property_values, .value_count = 9},
-  {.name = "values", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_weight_map, values), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 1, .lengths = weight_map_values_lengths},
+  {.name = "property", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_weight_map, property), .width = 1, .unit = "", .required = true, .words.at = weight_property_values, .words.count = 9},
+  {.name = "values", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_weight_map, values), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 1, .lengths = weight_map_values_lengths},
 };
 static const sbfi_element weight_map_element = {"weight_map", "weight_map", sizeof(sbf_weight_map), 0, 2, weight_map_fields, NULL};
 
 static const sbfi_length attachment_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"};
 static const sbfi_field attachment_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_attachment, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "rule", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_attachment, rule), .width = 1, .unit = "", .required = true, .values = attachment_rule_values, .value_count = 2},
-  {.name = "rigid_body", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_attachment, rigid_body), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, rigid_bodies), .target_name = "rigid_bodies"},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_attachment, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "rule", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_attachment, rule), .width = 1, .unit = "", .required = true, .words.at = attachment_rule_values, .words.count = 2},
+  {.name = "rigid_body", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_attachment, rigid_body), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, rigid_bodies), .reference.name = "rigid_bodies"},
   {.name = "points", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_attachment, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &attachment_points_index},
 };
 static const sbfi_element attachment_element = {"attachment", "attachment", sizeof(sbf_attachment), 0, 4, attachment_fields, NULL};
@@ -347,13 +347,13 @@ static const sbfi_length tetrahedron_mesh_reference_modulus_lengths[] = {{1, {{S
 static const sbfi_length tetrahedron_mesh_densities_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_tetrahedron_mesh, tetrahedra)}}, "tetrahedra"}};
 static const sbfi_length tetrahedron_mesh_stiffness_damping_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_tetrahedron_mesh, tetrahedra)}}, "tetrahedra"}};
 static const sbfi_field tetrahedron_mesh_fields[] = {
-  {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, target), .width = 1, .unit = "", .required = true, .values = volume_target_values, .value_count = 1},
+  {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, target), .width = 1, .unit = "", .required = true, .words.at = volume_target_values, .words.count = 1},
   {.name = "tetrahedra", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, tetrahedra), .width = 4, .unit = "", .item = SBFI_ITEM_U32, .positive = true, .index = &tetrahedron_mesh_tetrahedra_index},
-  {.name = "young_modulus", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, young_modulus), .width = 1, .unit = "Pa", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_young_modulus_lengths},
-  {.name = "reference_modulus", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, reference_modulus), .width = 1, .unit = "Pa", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_reference_modulus_lengths},
-  {.name = "densities", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, densities), .width = 1, .unit = "kg/m^3", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_densities_lengths},
+  {.name = "young_modulus", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, young_modulus), .width = 1, .unit = "Pa", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_young_modulus_lengths},
+  {.name = "reference_modulus", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, reference_modulus), .width = 1, .unit = "Pa", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_reference_modulus_lengths},
+  {.name = "densities", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, densities), .width = 1, .unit = "kg/m^3", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_densities_lengths},
   {.name = "color_counts", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, color_counts), .width = 1, .unit = "", .item = SBFI_ITEM_U32},
-  {.name = "stiffness_damping", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, stiffness_damping), .width = 1, .unit = "s", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_stiffness_damping_lengths},
+  {.name = "stiffness_damping", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, stiffness_damping), .width = 1, .unit = "s", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_stiffness_damping_lengths},
 };
 static const sbfi_element tetrahedron_mesh_element = {"tetrahedron_mesh", "tetrahedron_mesh", sizeof(sbf_tetrahedron_mesh), 0, 7, tetrahedron_mesh_fields, NULL};
 
@@ -363,37 +363,37 @@ static const sbfi_length spring_set_stiffness_lengths[] = {{1, {{SBFI_TERM_NUMBE
 static const sbfi_length spring_set_damping_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_spring_set, ends)}}, "ends"}};
 static const sbfi_length spring_set_compression_ratio_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_spring_set, ends)}}, "ends"}};
 static const sbfi_field spring_set_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_spring_set, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "kind", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_spring_set, kind), .width = 1, .unit = "", .required = true, .values = spring_kind_values, .value_count = 5},
-  {.name = "derived", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_spring_set, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
-  {.name = "extra", .type = SBFI_BOOL, .number = 4, .since_minor = 0, .offset = offsetof(sbf_spring_set, extra), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_spring_set, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "kind", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_spring_set, kind), .width = 1, .unit = "", .required = true, .words.at = spring_kind_values, .words.count = 5},
+  {.name = "derived", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_spring_set, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
+  {.name = "extra", .type = SBFI_BOOL, .number = 4, .since_minor = 0, .offset = offsetof(sbf_spring_set, extra), .width = 1, .unit = "", .initial.integer = 0},
   {.name = "ends", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_spring_set, ends), .width = 2, .unit = "", .item = SBFI_ITEM_U32, .index = &spring_set_ends_index},
-  {.name = "rest_lengths", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_spring_set, rest_lengths), .width = 1, .unit = "m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 2, .lengths = spring_set_rest_lengths_lengths},
-  {.name = "stiffness", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_spring_set, stiffness), .width = 1, .unit = "N/m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = spring_set_stiffness_lengths},
-  {.name = "damping", .type = SBFI_LIST, .number = 8, .since_minor = 0, .offset = offsetof(sbf_spring_set, damping), .width = 1, .unit = "N*s/m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = spring_set_damping_lengths},
-  {.name = "strain_min", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_spring_set, strain_min), .width = 1, .unit = "", .has_range = true, .min = -1.0, .max = 0.0, .min_open = false, .max_open = false, .defaults = {-1.0f}},
-  {.name = "strain_max", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_spring_set, strain_max), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "yield_strain", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_spring_set, yield_strain), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "tear_strain", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_spring_set, tear_strain), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "rest_lengths", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_spring_set, rest_lengths), .width = 1, .unit = "m", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 2, .lengths = spring_set_rest_lengths_lengths},
+  {.name = "stiffness", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_spring_set, stiffness), .width = 1, .unit = "N/m", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = spring_set_stiffness_lengths},
+  {.name = "damping", .type = SBFI_LIST, .number = 8, .since_minor = 0, .offset = offsetof(sbf_spring_set, damping), .width = 1, .unit = "N*s/m", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = spring_set_damping_lengths},
+  {.name = "strain_min", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_spring_set, strain_min), .width = 1, .unit = "", .range.is_stated = true, .range.min = -1.0, .range.max = 0.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {-1.0f}},
+  {.name = "strain_max", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_spring_set, strain_max), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "yield_strain", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_spring_set, yield_strain), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "tear_strain", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_spring_set, tear_strain), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "inert_count", .type = SBFI_UINT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_spring_set, inert_count), .width = 1, .unit = ""},
   {.name = "color_counts", .type = SBFI_LIST, .number = 14, .since_minor = 0, .offset = offsetof(sbf_spring_set, color_counts), .width = 1, .unit = "", .item = SBFI_ITEM_U32},
-  {.name = "compression_ratio", .type = SBFI_LIST, .number = 15, .since_minor = 0, .offset = offsetof(sbf_spring_set, compression_ratio), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = spring_set_compression_ratio_lengths},
+  {.name = "compression_ratio", .type = SBFI_LIST, .number = 15, .since_minor = 0, .offset = offsetof(sbf_spring_set, compression_ratio), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = spring_set_compression_ratio_lengths},
 };
 static const sbfi_element spring_set_element = {"spring_set", "spring_set", sizeof(sbf_spring_set), 0, 15, spring_set_fields, NULL};
 
 static const sbfi_length shape_regions_points_lengths[] = {{1, {{SBFI_TERM_SUM, 0, offsetof(sbf_shape_regions, sizes)}}, "sum(sizes)"}};
 static const sbfi_length shape_regions_points_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_level, positions)}}, "parent.positions"};
 static const sbfi_field shape_regions_fields[] = {
-  {.name = "sizes", .type = SBFI_LIST, .number = 1, .since_minor = 0, .offset = offsetof(sbf_shape_regions, sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .has_range = true, .min = 1.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "sizes", .type = SBFI_LIST, .number = 1, .since_minor = 0, .offset = offsetof(sbf_shape_regions, sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .range.is_stated = true, .range.min = 1.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "points", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_shape_regions, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = shape_regions_points_lengths, .index = &shape_regions_points_index},
-  {.name = "stiffness", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_shape_regions, stiffness), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {60.0f}},
+  {.name = "stiffness", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_shape_regions, stiffness), .width = 1, .unit = "1/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {60.0f}},
 };
 static const sbfi_element shape_regions_element = {"shape_regions", "shape_regions", sizeof(sbf_shape_regions), 0, 3, shape_regions_fields, NULL};
 
 static const sbfi_field jiggle_fields[] = {
-  {.name = "frequency", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_jiggle, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {3.0f}},
-  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_jiggle, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.4f}},
-  {.name = "response", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_jiggle, response), .width = 1, .unit = "", .defaults = {0.0f}},
+  {.name = "frequency", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_jiggle, frequency), .width = 1, .unit = "Hz", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {3.0f}},
+  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_jiggle, damping_ratio), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.4f}},
+  {.name = "response", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_jiggle, response), .width = 1, .unit = "", .initial.scalars = {0.0f}},
 };
 static const sbfi_element jiggle_element = {"jiggle", "jiggle", sizeof(sbf_jiggle), 0, 3, jiggle_fields, NULL};
 
@@ -401,40 +401,40 @@ static const sbfi_length embedding_points_index = {1, {{SBFI_TERM_COUNT, 1, offs
 static const sbfi_length embedding_weights_lengths[] = {{1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_embedding, points)}}, "points"}};
 static const sbfi_length embedding_blends_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_embedding, points)}}, "points"}};
 static const sbfi_field embedding_fields[] = {
-  {.name = "render_mesh", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_embedding, render_mesh), .width = 1, .unit = "", .target = offsetof(sbf_asset, render_meshes), .target_name = "render_meshes"},
+  {.name = "render_mesh", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_embedding, render_mesh), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, render_meshes), .reference.name = "render_meshes"},
   {.name = "vertices", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_embedding, vertices), .width = 1, .unit = "", .item = SBFI_ITEM_U32},
   {.name = "points", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_embedding, points), .width = 4, .unit = "", .item = SBFI_ITEM_U32, .index = &embedding_points_index},
   {.name = "weights", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_embedding, weights), .width = 4, .unit = "", .item = SBFI_ITEM_F32, .length_count = 1, .lengths = embedding_weights_lengths},
-  {.name = "blends", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_embedding, blends), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 2, .lengths = embedding_blends_lengths},
-  {.name = "derived", .type = SBFI_REF, .number = 6, .since_minor = 0, .offset = offsetof(sbf_embedding, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
+  {.name = "blends", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_embedding, blends), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .length_count = 2, .lengths = embedding_blends_lengths},
+  {.name = "derived", .type = SBFI_REF, .number = 6, .since_minor = 0, .offset = offsetof(sbf_embedding, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
 };
 static const sbfi_element embedding_element = {"embedding", "embedding", sizeof(sbf_embedding), 0, 6, embedding_fields, NULL};
 
 static const sbfi_field measured_fields[] = {
-  {.name = "machine", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_measured, machine), .width = 1, .unit = "", .default_text = ""},
-  {.name = "microseconds", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_measured, microseconds), .width = 1, .unit = "us", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "machine", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_measured, machine), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "microseconds", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_measured, microseconds), .width = 1, .unit = "us", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
 };
 static const sbfi_element measured_element = {"measured", "measured", sizeof(sbf_measured), 0, 2, measured_fields, NULL};
 
 static const sbfi_field simulation_fields[] = {
-  {.name = "scheme", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_simulation, scheme), .width = 1, .unit = "", .default_integer = 0, .values = scheme_values, .value_count = 7},
+  {.name = "scheme", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_simulation, scheme), .width = 1, .unit = "", .initial.integer = 0, .words.at = scheme_values, .words.count = 7},
   {.name = "substeps", .type = SBFI_UINT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_simulation, substeps), .width = 1, .unit = ""},
-  {.name = "error", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_simulation, error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "cost", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_simulation, cost), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "measured", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_simulation, measured), .width = 1, .unit = "", .volatile_ = true, .element = &measured_element, .xml = "measured"},
-  {.name = "step_error", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_simulation, step_error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "error", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_simulation, error), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "cost", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_simulation, cost), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "measured", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_simulation, measured), .width = 1, .unit = "", .volatile_ = true, .element = &measured_element, .tag.xml = "measured"},
+  {.name = "step_error", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_simulation, step_error), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "substeps_least", .type = SBFI_UINT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_simulation, substeps_least), .width = 1, .unit = ""},
   {.name = "substeps_most", .type = SBFI_UINT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_simulation, substeps_most), .width = 1, .unit = ""},
-  {.name = "motion_error", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_simulation, motion_error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "motion_error_rms", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_simulation, motion_error_rms), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "motion_error", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_simulation, motion_error), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "motion_error_rms", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_simulation, motion_error_rms), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
 };
 static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 10, simulation_fields, NULL};
 
 static const sbfi_field calibration_fields[] = {
   {.name = "reference_elements", .type = SBFI_UINT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_calibration, reference_elements), .width = 1, .unit = ""},
-  {.name = "factor", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_calibration, factor), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.0f}},
-  {.name = "surface_factor", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_calibration, surface_factor), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.0f}},
-  {.name = "residual", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_calibration, residual), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "factor", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_calibration, factor), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {1.0f}},
+  {.name = "surface_factor", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_calibration, surface_factor), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {1.0f}},
+  {.name = "residual", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_calibration, residual), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "period_error", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_calibration, period_error), .width = 1, .unit = ""},
   {.name = "load_errors", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_calibration, load_errors), .width = 1, .unit = "", .item = SBFI_ITEM_F32},
   {.name = "twist_errors", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_calibration, twist_errors), .width = 1, .unit = "", .item = SBFI_ITEM_F32},
@@ -444,21 +444,21 @@ static const sbfi_element calibration_element = {"calibration", "calibration", s
 static const sbfi_length level_masses_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_level, positions)}}, "positions"}};
 static const sbfi_length level_size = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_level, positions)}}, "positions"};
 static const sbfi_field level_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_level, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "model", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_level, model), .width = 1, .unit = "", .default_integer = 0, .values = elastic_model_values, .value_count = 4},
-  {.name = "derived", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_level, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
-  {.name = "cell", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_level, cell), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_level, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "model", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_level, model), .width = 1, .unit = "", .initial.integer = 0, .words.at = elastic_model_values, .words.count = 4},
+  {.name = "derived", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_level, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
+  {.name = "cell", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_level, cell), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "positions", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_level, positions), .width = 3, .unit = "m", .item = SBFI_ITEM_F32},
   {.name = "new_from_old", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_level, new_from_old), .width = 1, .unit = "", .item = SBFI_ITEM_U32},
-  {.name = "masses", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_level, masses), .width = 1, .unit = "kg", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 2, .lengths = level_masses_lengths},
-  {.name = "lattice", .type = SBFI_ONE, .number = 8, .since_minor = 0, .offset = offsetof(sbf_level, lattice), .width = 1, .unit = "", .element = &tetrahedron_mesh_element, .xml = "tetrahedron_mesh"},
-  {.name = "springs", .type = SBFI_MANY, .number = 9, .since_minor = 0, .offset = offsetof(sbf_level, springs), .width = 1, .unit = "", .element = &spring_set_element, .xml = "spring_set"},
-  {.name = "regions", .type = SBFI_OPTIONAL, .number = 10, .since_minor = 0, .offset = offsetof(sbf_level, regions), .width = 1, .unit = "", .element = &shape_regions_element, .xml = "shape_regions"},
-  {.name = "jiggle", .type = SBFI_OPTIONAL, .number = 11, .since_minor = 0, .offset = offsetof(sbf_level, jiggle), .width = 1, .unit = "", .element = &jiggle_element, .xml = "jiggle"},
-  {.name = "pins", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_level, pins), .width = 1, .unit = "", .element = &pin_set_element, .xml = "pin_set", .wrapper = "pins"},
-  {.name = "embeddings", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_level, embeddings), .width = 1, .unit = "", .element = &embedding_element, .xml = "embedding"},
-  {.name = "simulation", .type = SBFI_ONE, .number = 14, .since_minor = 0, .offset = offsetof(sbf_level, simulation), .width = 1, .unit = "", .element = &simulation_element, .xml = "simulation"},
-  {.name = "calibration", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 0, .offset = offsetof(sbf_level, calibration), .width = 1, .unit = "", .element = &calibration_element, .xml = "calibration"},
+  {.name = "masses", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_level, masses), .width = 1, .unit = "kg", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 2, .lengths = level_masses_lengths},
+  {.name = "lattice", .type = SBFI_ONE, .number = 8, .since_minor = 0, .offset = offsetof(sbf_level, lattice), .width = 1, .unit = "", .element = &tetrahedron_mesh_element, .tag.xml = "tetrahedron_mesh"},
+  {.name = "springs", .type = SBFI_MANY, .number = 9, .since_minor = 0, .offset = offsetof(sbf_level, springs), .width = 1, .unit = "", .element = &spring_set_element, .tag.xml = "spring_set"},
+  {.name = "regions", .type = SBFI_OPTIONAL, .number = 10, .since_minor = 0, .offset = offsetof(sbf_level, regions), .width = 1, .unit = "", .element = &shape_regions_element, .tag.xml = "shape_regions"},
+  {.name = "jiggle", .type = SBFI_OPTIONAL, .number = 11, .since_minor = 0, .offset = offsetof(sbf_level, jiggle), .width = 1, .unit = "", .element = &jiggle_element, .tag.xml = "jiggle"},
+  {.name = "pins", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_level, pins), .width = 1, .unit = "", .element = &pin_set_element, .tag.xml = "pin_set", .tag.wrapper = "pins"},
+  {.name = "embeddings", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_level, embeddings), .width = 1, .unit = "", .element = &embedding_element, .tag.xml = "embedding"},
+  {.name = "simulation", .type = SBFI_ONE, .number = 14, .since_minor = 0, .offset = offsetof(sbf_level, simulation), .width = 1, .unit = "", .element = &simulation_element, .tag.xml = "simulation"},
+  {.name = "calibration", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 0, .offset = offsetof(sbf_level, calibration), .width = 1, .unit = "", .element = &calibration_element, .tag.xml = "calibration"},
 };
 static const sbfi_element level_element = {"level", "level", sizeof(sbf_level), SBFI_KIND('L', 'E', 'V', 'L'), 15, level_fields, &level_size};
 
@@ -475,20 +475,20 @@ static const sbfi_element legacy_element = {"legacy", "legacy", sizeof(sbf_legac
 static const sbfi_length soft_body_source_points_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_soft_body, surface.positions)}}, "surface.positions"}};
 static const sbfi_length soft_body_size = {2, {{SBFI_TERM_COUNT, 0, offsetof(sbf_soft_body, surface.positions)}, {SBFI_TERM_COUNT, 0, offsetof(sbf_soft_body, interior)}}, "surface.positions + interior"};
 static const sbfi_field soft_body_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_soft_body, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_soft_body, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_soft_body, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_soft_body, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
-  {.name = "surface", .type = SBFI_ONE, .number = 5, .since_minor = 0, .offset = offsetof(sbf_soft_body, surface), .width = 1, .unit = "", .element = &polygon_mesh_element, .xml = "polygon_mesh", .fixed_name = "target", .fixed_value = 1},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_soft_body, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_soft_body, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_soft_body, bone), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_soft_body, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
+  {.name = "surface", .type = SBFI_ONE, .number = 5, .since_minor = 0, .offset = offsetof(sbf_soft_body, surface), .width = 1, .unit = "", .element = &polygon_mesh_element, .tag.xml = "polygon_mesh", .fixed.name = "target", .fixed.value = 1},
   {.name = "interior", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_soft_body, interior), .width = 3, .unit = "m", .item = SBFI_ITEM_F32},
   {.name = "source_points", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_soft_body, source_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = soft_body_source_points_lengths},
-  {.name = "attributes", .type = SBFI_ONE, .number = 8, .since_minor = 0, .offset = offsetof(sbf_soft_body, attributes), .width = 1, .unit = "", .element = &attributes_element, .xml = "attributes"},
-  {.name = "collision", .type = SBFI_ONE, .number = 9, .since_minor = 0, .offset = offsetof(sbf_soft_body, collision), .width = 1, .unit = "", .element = &collision_element, .xml = "collision"},
-  {.name = "weight_maps", .type = SBFI_MANY, .number = 10, .since_minor = 0, .offset = offsetof(sbf_soft_body, weight_maps), .width = 1, .unit = "", .element = &weight_map_element, .xml = "weight_map"},
-  {.name = "pins", .type = SBFI_MANY, .number = 11, .since_minor = 0, .offset = offsetof(sbf_soft_body, pins), .width = 1, .unit = "", .element = &pin_set_element, .xml = "pin_set", .wrapper = "pins"},
-  {.name = "attachments", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_soft_body, attachments), .width = 1, .unit = "", .element = &attachment_element, .xml = "attachment", .wrapper = "attachments"},
-  {.name = "levels", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_soft_body, levels), .width = 1, .unit = "", .element = &level_element, .xml = "level"},
-  {.name = "legacy", .type = SBFI_OPTIONAL, .number = 14, .since_minor = 0, .offset = offsetof(sbf_soft_body, legacy), .width = 1, .unit = "", .element = &legacy_element, .xml = "legacy"},
+  {.name = "attributes", .type = SBFI_ONE, .number = 8, .since_minor = 0, .offset = offsetof(sbf_soft_body, attributes), .width = 1, .unit = "", .element = &attributes_element, .tag.xml = "attributes"},
+  {.name = "collision", .type = SBFI_ONE, .number = 9, .since_minor = 0, .offset = offsetof(sbf_soft_body, collision), .width = 1, .unit = "", .element = &collision_element, .tag.xml = "collision"},
+  {.name = "weight_maps", .type = SBFI_MANY, .number = 10, .since_minor = 0, .offset = offsetof(sbf_soft_body, weight_maps), .width = 1, .unit = "", .element = &weight_map_element, .tag.xml = "weight_map"},
+  {.name = "pins", .type = SBFI_MANY, .number = 11, .since_minor = 0, .offset = offsetof(sbf_soft_body, pins), .width = 1, .unit = "", .element = &pin_set_element, .tag.xml = "pin_set", .tag.wrapper = "pins"},
+  {.name = "attachments", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_soft_body, attachments), .width = 1, .unit = "", .element = &attachment_element, .tag.xml = "attachment", .tag.wrapper = "attachments"},
+  {.name = "levels", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_soft_body, levels), .width = 1, .unit = "", .element = &level_element, .tag.xml = "level"},
+  {.name = "legacy", .type = SBFI_OPTIONAL, .number = 14, .since_minor = 0, .offset = offsetof(sbf_soft_body, legacy), .width = 1, .unit = "", .element = &legacy_element, .tag.xml = "legacy"},
 };
 static const sbfi_element soft_body_element = {"soft_body", "soft_body", sizeof(sbf_soft_body), SBFI_KIND('B', 'O', 'D', 'Y'), 14, soft_body_fields, &soft_body_size};
 
@@ -496,315 +496,315 @@ static const sbfi_length cross_springs_rest_lengths_lengths[] = {{1, {{SBFI_TERM
 static const sbfi_length cross_springs_stiffness_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_cross_springs, ends)}}, "ends"}};
 static const sbfi_length cross_springs_damping_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_cross_springs, ends)}}, "ends"}};
 static const sbfi_field cross_springs_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_cross_springs, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "derived", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_cross_springs, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
-  {.name = "body_a", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_cross_springs, body_a), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, soft_bodies), .target_name = "soft_bodies"},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_cross_springs, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "derived", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_cross_springs, derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
+  {.name = "body_a", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_cross_springs, body_a), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, soft_bodies), .reference.name = "soft_bodies"},
   {.name = "level_a", .type = SBFI_UINT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_cross_springs, level_a), .width = 1, .unit = ""},
-  {.name = "body_b", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_cross_springs, body_b), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, soft_bodies), .target_name = "soft_bodies"},
+  {.name = "body_b", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_cross_springs, body_b), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, soft_bodies), .reference.name = "soft_bodies"},
   {.name = "level_b", .type = SBFI_UINT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_cross_springs, level_b), .width = 1, .unit = ""},
   {.name = "ends", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_cross_springs, ends), .width = 2, .unit = "", .item = SBFI_ITEM_U32},
-  {.name = "rest_lengths", .type = SBFI_LIST, .number = 8, .since_minor = 0, .offset = offsetof(sbf_cross_springs, rest_lengths), .width = 1, .unit = "m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 2, .lengths = cross_springs_rest_lengths_lengths},
-  {.name = "stiffness", .type = SBFI_LIST, .number = 9, .since_minor = 0, .offset = offsetof(sbf_cross_springs, stiffness), .width = 1, .unit = "N/m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = cross_springs_stiffness_lengths},
-  {.name = "damping", .type = SBFI_LIST, .number = 10, .since_minor = 0, .offset = offsetof(sbf_cross_springs, damping), .width = 1, .unit = "N*s/m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = cross_springs_damping_lengths},
+  {.name = "rest_lengths", .type = SBFI_LIST, .number = 8, .since_minor = 0, .offset = offsetof(sbf_cross_springs, rest_lengths), .width = 1, .unit = "m", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 2, .lengths = cross_springs_rest_lengths_lengths},
+  {.name = "stiffness", .type = SBFI_LIST, .number = 9, .since_minor = 0, .offset = offsetof(sbf_cross_springs, stiffness), .width = 1, .unit = "N/m", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = cross_springs_stiffness_lengths},
+  {.name = "damping", .type = SBFI_LIST, .number = 10, .since_minor = 0, .offset = offsetof(sbf_cross_springs, damping), .width = 1, .unit = "N*s/m", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = cross_springs_damping_lengths},
 };
 static const sbfi_element cross_springs_element = {"cross_springs", "cross_springs", sizeof(sbf_cross_springs), 0, 10, cross_springs_fields, NULL};
 
 static const sbfi_field comfort_fields[] = {
-  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_comfort, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "rotation", .type = SBFI_QUAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_comfort, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
-  {.name = "weight", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_comfort, weight), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
-  {.name = "axes", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_comfort, axes), .width = 3, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f, 1.0f, 1.0f}},
+  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_comfort, bone), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "rotation", .type = SBFI_QUAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_comfort, rotation), .width = 4, .unit = "", .initial.scalars = {0, 0, 0, 1}},
+  {.name = "weight", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_comfort, weight), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
+  {.name = "axes", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_comfort, axes), .width = 3, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f, 1.0f, 1.0f}},
 };
 static const sbfi_element comfort_element = {"comfort", "comfort", sizeof(sbf_comfort), 0, 4, comfort_fields, NULL};
 
 static const sbfi_field ik_chain_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_ik_chain, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_ik_chain, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "solver", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_ik_chain, solver), .width = 1, .unit = "", .default_integer = 0, .values = ik_solver_values, .value_count = 5},
-  {.name = "root", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_ik_chain, root), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "end", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_ik_chain, end), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "has_pole", .type = SBFI_BOOL, .number = 6, .since_minor = 0, .offset = offsetof(sbf_ik_chain, has_pole), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_ik_chain, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_ik_chain, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "solver", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_ik_chain, solver), .width = 1, .unit = "", .initial.integer = 0, .words.at = ik_solver_values, .words.count = 5},
+  {.name = "root", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_ik_chain, root), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "end", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_ik_chain, end), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "has_pole", .type = SBFI_BOOL, .number = 6, .since_minor = 0, .offset = offsetof(sbf_ik_chain, has_pole), .width = 1, .unit = "", .initial.integer = 0},
   {.name = "pole", .type = SBFI_VEC3, .number = 7, .since_minor = 0, .offset = offsetof(sbf_ik_chain, pole), .width = 3, .unit = "m"},
-  {.name = "pole_bone", .type = SBFI_REF, .number = 8, .since_minor = 0, .offset = offsetof(sbf_ik_chain, pole_bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "copy_rotation", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_ik_chain, copy_rotation), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
-  {.name = "soft_reach", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_ik_chain, soft_reach), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = true, .defaults = {0.02f}},
-  {.name = "tolerance", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_ik_chain, tolerance), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.0001f}},
-  {.name = "iterations", .type = SBFI_UINT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_ik_chain, iterations), .width = 1, .unit = "", .default_integer = 32u},
-  {.name = "comforts", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_ik_chain, comforts), .width = 1, .unit = "", .element = &comfort_element, .xml = "comfort"},
-  {.name = "proposed", .type = SBFI_BOOL, .number = 14, .since_minor = 0, .offset = offsetof(sbf_ik_chain, proposed), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "pole_bone", .type = SBFI_REF, .number = 8, .since_minor = 0, .offset = offsetof(sbf_ik_chain, pole_bone), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "copy_rotation", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_ik_chain, copy_rotation), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
+  {.name = "soft_reach", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_ik_chain, soft_reach), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.02f}},
+  {.name = "tolerance", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_ik_chain, tolerance), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.0001f}},
+  {.name = "iterations", .type = SBFI_UINT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_ik_chain, iterations), .width = 1, .unit = "", .initial.integer = 32u},
+  {.name = "comforts", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_ik_chain, comforts), .width = 1, .unit = "", .element = &comfort_element, .tag.xml = "comfort"},
+  {.name = "proposed", .type = SBFI_BOOL, .number = 14, .since_minor = 0, .offset = offsetof(sbf_ik_chain, proposed), .width = 1, .unit = "", .initial.integer = 0},
 };
 static const sbfi_element ik_chain_element = {"ik_chain", "ik_chain", sizeof(sbf_ik_chain), 0, 14, ik_chain_fields, NULL};
 
 static const sbfi_field leg_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_leg, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "ik", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_leg, ik), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, ik_chains), .target_name = "ik_chains"},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_leg, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "ik", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_leg, ik), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, ik_chains), .reference.name = "ik_chains"},
   {.name = "home", .type = SBFI_VEC3, .number = 3, .since_minor = 0, .offset = offsetof(sbf_leg, home), .width = 3, .unit = "m", .required = true},
   {.name = "sole", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_leg, sole), .width = 1, .unit = "m"},
   {.name = "group", .type = SBFI_UINT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_leg, group), .width = 1, .unit = ""},
-  {.name = "jump_margin", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_leg, jump_margin), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.5f}},
+  {.name = "jump_margin", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_leg, jump_margin), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.5f}},
 };
 static const sbfi_element leg_element = {"leg", "leg", sizeof(sbf_leg), 0, 6, leg_fields, NULL};
 
 static const sbfi_field head_turn_fields[] = {
-  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_head_turn, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "lead", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_head_turn, lead), .width = 1, .unit = "s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.4f}},
-  {.name = "limit", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_head_turn, limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false, .defaults = {0.7f}},
-  {.name = "frequency", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_head_turn, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.5f}},
-  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_head_turn, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.8f}},
+  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_head_turn, bone), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "lead", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_head_turn, lead), .width = 1, .unit = "s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.4f}},
+  {.name = "limit", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_head_turn, limit), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 3.15, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.7f}},
+  {.name = "frequency", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_head_turn, frequency), .width = 1, .unit = "Hz", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {1.5f}},
+  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_head_turn, damping_ratio), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.8f}},
 };
 static const sbfi_element head_turn_element = {"head_turn", "head_turn", sizeof(sbf_head_turn), 0, 5, head_turn_fields, NULL};
 
 static const sbfi_field tail_fields[] = {
-  {.name = "chain", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tail, chain), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, chains), .target_name = "chains"},
-  {.name = "frequency", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_tail, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.2f}},
-  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_tail, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.25f}},
-  {.name = "limit", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_tail, limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false, .defaults = {0.6f}},
+  {.name = "chain", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tail, chain), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, chains), .reference.name = "chains"},
+  {.name = "frequency", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_tail, frequency), .width = 1, .unit = "Hz", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {1.2f}},
+  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_tail, damping_ratio), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.25f}},
+  {.name = "limit", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_tail, limit), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 3.15, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.6f}},
 };
 static const sbfi_element tail_element = {"tail", "tail", sizeof(sbf_tail), 0, 4, tail_fields, NULL};
 
 static const sbfi_length undulation_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_field undulation_fields[] = {
   {.name = "bones", .type = SBFI_LIST, .number = 1, .since_minor = 0, .offset = offsetof(sbf_undulation, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &undulation_bones_index},
-  {.name = "plane", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_undulation, plane), .width = 1, .unit = "", .default_integer = 0, .values = wave_plane_values, .value_count = 2},
-  {.name = "length", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_undulation, length), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "wavelength", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_undulation, wavelength), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.95f}},
-  {.name = "amplitude", .type = SBFI_VEC3, .number = 5, .since_minor = 0, .offset = offsetof(sbf_undulation, amplitude), .width = 3, .unit = "", .defaults = {0.02f, -0.08f, 0.16f}},
-  {.name = "exaggeration", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_undulation, exaggeration), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 10.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
-  {.name = "strouhal_number", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_undulation, strouhal_number), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.3f}},
-  {.name = "idle_frequency", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_undulation, idle_frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.4f}},
-  {.name = "max_frequency", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_undulation, max_frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {8.0f}},
-  {.name = "heading_amplitude", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_undulation, heading_amplitude), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 1.5, .min_open = false, .max_open = false, .defaults = {0.7f}},
+  {.name = "plane", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_undulation, plane), .width = 1, .unit = "", .initial.integer = 0, .words.at = wave_plane_values, .words.count = 2},
+  {.name = "length", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_undulation, length), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "wavelength", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_undulation, wavelength), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.95f}},
+  {.name = "amplitude", .type = SBFI_VEC3, .number = 5, .since_minor = 0, .offset = offsetof(sbf_undulation, amplitude), .width = 3, .unit = "", .initial.scalars = {0.02f, -0.08f, 0.16f}},
+  {.name = "exaggeration", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_undulation, exaggeration), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 10.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
+  {.name = "strouhal_number", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_undulation, strouhal_number), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.3f}},
+  {.name = "idle_frequency", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_undulation, idle_frequency), .width = 1, .unit = "Hz", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.4f}},
+  {.name = "max_frequency", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_undulation, max_frequency), .width = 1, .unit = "Hz", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {8.0f}},
+  {.name = "heading_amplitude", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_undulation, heading_amplitude), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 1.5, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.7f}},
 };
 static const sbfi_element undulation_element = {"undulation", "undulation", sizeof(sbf_undulation), 0, 10, undulation_fields, NULL};
 
 static const sbfi_length fin_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_field fin_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_fin, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_fin, name), .width = 1, .unit = "", .initial.text = ""},
   {.name = "bones", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_fin, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &fin_bones_index},
-  {.name = "motion", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_fin, motion), .width = 1, .unit = "", .default_integer = 0, .values = fin_motion_values, .value_count = 3},
-  {.name = "axis", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_fin, axis), .width = 3, .unit = "", .defaults = {0.0f, 0.0f, 1.0f}},
-  {.name = "amplitude", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_fin, amplitude), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false, .defaults = {0.4f}},
-  {.name = "mean", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_fin, mean), .width = 1, .unit = "rad", .has_range = true, .min = -3.15, .max = 3.15, .min_open = false, .max_open = false},
-  {.name = "flex", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_fin, flex), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false},
-  {.name = "lag", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_fin, lag), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 6.29, .min_open = false, .max_open = false},
-  {.name = "phase", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_fin, phase), .width = 1, .unit = "rad", .has_range = true, .min = -6.29, .max = 6.29, .min_open = false, .max_open = false},
-  {.name = "frequency", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_fin, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = 60.0, .min_open = false, .max_open = false},
-  {.name = "twist", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_fin, twist), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false},
+  {.name = "motion", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_fin, motion), .width = 1, .unit = "", .initial.integer = 0, .words.at = fin_motion_values, .words.count = 3},
+  {.name = "axis", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_fin, axis), .width = 3, .unit = "", .initial.scalars = {0.0f, 0.0f, 1.0f}},
+  {.name = "amplitude", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_fin, amplitude), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 3.15, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.4f}},
+  {.name = "mean", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_fin, mean), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = -3.15, .range.max = 3.15, .range.min_open = false, .range.max_open = false},
+  {.name = "flex", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_fin, flex), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 3.15, .range.min_open = false, .range.max_open = false},
+  {.name = "lag", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_fin, lag), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 6.29, .range.min_open = false, .range.max_open = false},
+  {.name = "phase", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_fin, phase), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = -6.29, .range.max = 6.29, .range.min_open = false, .range.max_open = false},
+  {.name = "frequency", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_fin, frequency), .width = 1, .unit = "Hz", .range.is_stated = true, .range.min = 0.0, .range.max = 60.0, .range.min_open = false, .range.max_open = false},
+  {.name = "twist", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_fin, twist), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 3.15, .range.min_open = false, .range.max_open = false},
 };
 static const sbfi_element fin_element = {"fin", "fin", sizeof(sbf_fin), 0, 11, fin_fields, NULL};
 
 static const sbfi_field wheel_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_wheel, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "bone", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_wheel, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "axis", .type = SBFI_VEC3, .number = 3, .since_minor = 0, .offset = offsetof(sbf_wheel, axis), .width = 3, .unit = "", .defaults = {1.0f, 0.0f, 0.0f}},
-  {.name = "radius", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_wheel, radius), .width = 1, .unit = "m", .required = true, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true},
-  {.name = "steer_limit", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_wheel, steer_limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 1.5, .min_open = false, .max_open = false},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_wheel, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_wheel, bone), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "axis", .type = SBFI_VEC3, .number = 3, .since_minor = 0, .offset = offsetof(sbf_wheel, axis), .width = 3, .unit = "", .initial.scalars = {1.0f, 0.0f, 0.0f}},
+  {.name = "radius", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_wheel, radius), .width = 1, .unit = "m", .required = true, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true},
+  {.name = "steer_limit", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_wheel, steer_limit), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 1.5, .range.min_open = false, .range.max_open = false},
 };
 static const sbfi_element wheel_element = {"wheel", "wheel", sizeof(sbf_wheel), 0, 5, wheel_fields, NULL};
 
 static const sbfi_length tread_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_field tread_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tread, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tread, name), .width = 1, .unit = "", .initial.text = ""},
   {.name = "bones", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_tread, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &tread_bones_index},
 };
 static const sbfi_element tread_element = {"tread", "tread", sizeof(sbf_tread), 0, 2, tread_fields, NULL};
 
 static const sbfi_field medium_fields[] = {
-  {.name = "buoyancy", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_medium, buoyancy), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 10.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
-  {.name = "drag_length", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_medium, drag_length), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "altitude", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_medium, altitude), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "bank", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_medium, bank), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 4.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
-  {.name = "bank_limit", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_medium, bank_limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 1.5, .min_open = false, .max_open = false, .defaults = {0.8f}},
-  {.name = "pitch_limit", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_medium, pitch_limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 1.5, .min_open = false, .max_open = false, .defaults = {0.8f}},
-  {.name = "tilt", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_medium, tilt), .width = 1, .unit = "rad", .has_range = true, .min = -1.5, .max = 1.5, .min_open = false, .max_open = false},
-  {.name = "bob", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_medium, bob), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "bob_frequency", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_medium, bob_frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = 8.0, .min_open = false, .max_open = false, .defaults = {0.8f}},
-  {.name = "glide_ratio", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_medium, glide_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "buoyancy", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_medium, buoyancy), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 10.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
+  {.name = "drag_length", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_medium, drag_length), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "altitude", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_medium, altitude), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "bank", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_medium, bank), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 4.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
+  {.name = "bank_limit", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_medium, bank_limit), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 1.5, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.8f}},
+  {.name = "pitch_limit", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_medium, pitch_limit), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 1.5, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.8f}},
+  {.name = "tilt", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_medium, tilt), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = -1.5, .range.max = 1.5, .range.min_open = false, .range.max_open = false},
+  {.name = "bob", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_medium, bob), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "bob_frequency", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_medium, bob_frequency), .width = 1, .unit = "Hz", .range.is_stated = true, .range.min = 0.0, .range.max = 8.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.8f}},
+  {.name = "glide_ratio", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_medium, glide_ratio), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
 };
 static const sbfi_element medium_element = {"medium", "medium", sizeof(sbf_medium), 0, 10, medium_fields, NULL};
 
 static const sbfi_field gait_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_gait, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_gait, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "proposed", .type = SBFI_BOOL, .number = 3, .since_minor = 0, .offset = offsetof(sbf_gait, proposed), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "body", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_gait, body), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "hips", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_gait, hips), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "chest", .type = SBFI_REF, .number = 6, .since_minor = 0, .offset = offsetof(sbf_gait, chest), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "step_height", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_gait, step_height), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.05f}},
-  {.name = "step_width", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_gait, step_width), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "step_trigger", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_gait, step_trigger), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.05f}},
-  {.name = "step_duration", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_gait, step_duration), .width = 1, .unit = "s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.25f}},
-  {.name = "walk_speed", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_gait, walk_speed), .width = 1, .unit = "m/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.5f}},
-  {.name = "hip_tilt", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_gait, hip_tilt), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.5f}},
-  {.name = "body_tilt", .type = SBFI_FLOAT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_gait, body_tilt), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.7f}},
-  {.name = "legs", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_gait, legs), .width = 1, .unit = "", .element = &leg_element, .xml = "leg"},
-  {.name = "head", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 0, .offset = offsetof(sbf_gait, head), .width = 1, .unit = "", .element = &head_turn_element, .xml = "head_turn"},
-  {.name = "tails", .type = SBFI_MANY, .number = 16, .since_minor = 0, .offset = offsetof(sbf_gait, tails), .width = 1, .unit = "", .element = &tail_element, .xml = "tail"},
-  {.name = "kind", .type = SBFI_ENUM, .number = 17, .since_minor = 2, .offset = offsetof(sbf_gait, kind), .width = 1, .unit = "", .default_integer = 0, .values = gait_kind_values, .value_count = 7},
-  {.name = "rest_pose", .type = SBFI_REF, .number = 18, .since_minor = 2, .offset = offsetof(sbf_gait, rest_pose), .width = 1, .unit = "", .target = offsetof(sbf_asset, poses), .target_name = "poses"},
-  {.name = "idle_clip", .type = SBFI_REF, .number = 19, .since_minor = 2, .offset = offsetof(sbf_gait, idle_clip), .width = 1, .unit = "", .target = offsetof(sbf_asset, clips), .target_name = "clips"},
-  {.name = "move_clip", .type = SBFI_REF, .number = 20, .since_minor = 2, .offset = offsetof(sbf_gait, move_clip), .width = 1, .unit = "", .target = offsetof(sbf_asset, clips), .target_name = "clips"},
-  {.name = "undulation", .type = SBFI_OPTIONAL, .number = 21, .since_minor = 2, .offset = offsetof(sbf_gait, undulation), .width = 1, .unit = "", .element = &undulation_element, .xml = "undulation"},
-  {.name = "fins", .type = SBFI_MANY, .number = 22, .since_minor = 2, .offset = offsetof(sbf_gait, fins), .width = 1, .unit = "", .element = &fin_element, .xml = "fin"},
-  {.name = "wheels", .type = SBFI_MANY, .number = 23, .since_minor = 2, .offset = offsetof(sbf_gait, wheels), .width = 1, .unit = "", .element = &wheel_element, .xml = "wheel"},
-  {.name = "treads", .type = SBFI_MANY, .number = 24, .since_minor = 2, .offset = offsetof(sbf_gait, treads), .width = 1, .unit = "", .element = &tread_element, .xml = "tread"},
-  {.name = "medium", .type = SBFI_OPTIONAL, .number = 25, .since_minor = 2, .offset = offsetof(sbf_gait, medium), .width = 1, .unit = "", .element = &medium_element, .xml = "medium"},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_gait, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_gait, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "proposed", .type = SBFI_BOOL, .number = 3, .since_minor = 0, .offset = offsetof(sbf_gait, proposed), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "body", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_gait, body), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "hips", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_gait, hips), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "chest", .type = SBFI_REF, .number = 6, .since_minor = 0, .offset = offsetof(sbf_gait, chest), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "step_height", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_gait, step_height), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.05f}},
+  {.name = "step_width", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_gait, step_width), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "step_trigger", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_gait, step_trigger), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.05f}},
+  {.name = "step_duration", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_gait, step_duration), .width = 1, .unit = "s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.25f}},
+  {.name = "walk_speed", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_gait, walk_speed), .width = 1, .unit = "m/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.5f}},
+  {.name = "hip_tilt", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_gait, hip_tilt), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.5f}},
+  {.name = "body_tilt", .type = SBFI_FLOAT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_gait, body_tilt), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.7f}},
+  {.name = "legs", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_gait, legs), .width = 1, .unit = "", .element = &leg_element, .tag.xml = "leg"},
+  {.name = "head", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 0, .offset = offsetof(sbf_gait, head), .width = 1, .unit = "", .element = &head_turn_element, .tag.xml = "head_turn"},
+  {.name = "tails", .type = SBFI_MANY, .number = 16, .since_minor = 0, .offset = offsetof(sbf_gait, tails), .width = 1, .unit = "", .element = &tail_element, .tag.xml = "tail"},
+  {.name = "kind", .type = SBFI_ENUM, .number = 17, .since_minor = 2, .offset = offsetof(sbf_gait, kind), .width = 1, .unit = "", .initial.integer = 0, .words.at = gait_kind_values, .words.count = 7},
+  {.name = "rest_pose", .type = SBFI_REF, .number = 18, .since_minor = 2, .offset = offsetof(sbf_gait, rest_pose), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, poses), .reference.name = "poses"},
+  {.name = "idle_clip", .type = SBFI_REF, .number = 19, .since_minor = 2, .offset = offsetof(sbf_gait, idle_clip), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, clips), .reference.name = "clips"},
+  {.name = "move_clip", .type = SBFI_REF, .number = 20, .since_minor = 2, .offset = offsetof(sbf_gait, move_clip), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, clips), .reference.name = "clips"},
+  {.name = "undulation", .type = SBFI_OPTIONAL, .number = 21, .since_minor = 2, .offset = offsetof(sbf_gait, undulation), .width = 1, .unit = "", .element = &undulation_element, .tag.xml = "undulation"},
+  {.name = "fins", .type = SBFI_MANY, .number = 22, .since_minor = 2, .offset = offsetof(sbf_gait, fins), .width = 1, .unit = "", .element = &fin_element, .tag.xml = "fin"},
+  {.name = "wheels", .type = SBFI_MANY, .number = 23, .since_minor = 2, .offset = offsetof(sbf_gait, wheels), .width = 1, .unit = "", .element = &wheel_element, .tag.xml = "wheel"},
+  {.name = "treads", .type = SBFI_MANY, .number = 24, .since_minor = 2, .offset = offsetof(sbf_gait, treads), .width = 1, .unit = "", .element = &tread_element, .tag.xml = "tread"},
+  {.name = "medium", .type = SBFI_OPTIONAL, .number = 25, .since_minor = 2, .offset = offsetof(sbf_gait, medium), .width = 1, .unit = "", .element = &medium_element, .tag.xml = "medium"},
 };
 static const sbfi_element gait_element = {"gait", "gait", sizeof(sbf_gait), SBFI_KIND('G', 'A', 'I', 'T'), 25, gait_fields, NULL};
 
 static const sbfi_length chain_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_length chain_spacing_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_chain, bones)}}, "bones"}};
 static const sbfi_field chain_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_chain, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_chain, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "kind", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_chain, kind), .width = 1, .unit = "", .default_integer = 0, .values = chain_kind_values, .value_count = 2},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_chain, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_chain, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "kind", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_chain, kind), .width = 1, .unit = "", .initial.integer = 0, .words.at = chain_kind_values, .words.count = 2},
   {.name = "bones", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_chain, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &chain_bones_index},
-  {.name = "spacing", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_chain, spacing), .width = 1, .unit = "m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 2, .lengths = chain_spacing_lengths},
-  {.name = "angle_limit", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_chain, angle_limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false, .defaults = {1.0f}},
-  {.name = "damping", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_chain, damping), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "proposed", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_chain, proposed), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "spacing", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_chain, spacing), .width = 1, .unit = "m", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 2, .lengths = chain_spacing_lengths},
+  {.name = "angle_limit", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_chain, angle_limit), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 3.15, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
+  {.name = "damping", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_chain, damping), .width = 1, .unit = "1/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "proposed", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_chain, proposed), .width = 1, .unit = "", .initial.integer = 0},
 };
 static const sbfi_element chain_element = {"chain", "chain", sizeof(sbf_chain), 0, 8, chain_fields, NULL};
 
 static const sbfi_field follower_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_follower, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_follower, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_follower, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "channel", .type = SBFI_ENUM, .number = 4, .since_minor = 0, .offset = offsetof(sbf_follower, channel), .width = 1, .unit = "", .default_integer = 0, .values = follower_channel_values, .value_count = 5},
-  {.name = "frequency", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_follower, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {2.0f}},
-  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_follower, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.5f}},
-  {.name = "response", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_follower, response), .width = 1, .unit = "", .defaults = {0.0f}},
-  {.name = "axis", .type = SBFI_ENUM, .number = 8, .since_minor = 0, .offset = offsetof(sbf_follower, axis), .width = 1, .unit = "", .default_integer = 1, .values = bone_axis_values, .value_count = 3},
-  {.name = "strength", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_follower, strength), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {1.0f}},
-  {.name = "limit", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_follower, limit), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.5f}},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_follower, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_follower, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_follower, bone), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "channel", .type = SBFI_ENUM, .number = 4, .since_minor = 0, .offset = offsetof(sbf_follower, channel), .width = 1, .unit = "", .initial.integer = 0, .words.at = follower_channel_values, .words.count = 5},
+  {.name = "frequency", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_follower, frequency), .width = 1, .unit = "Hz", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {2.0f}},
+  {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_follower, damping_ratio), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {0.5f}},
+  {.name = "response", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_follower, response), .width = 1, .unit = "", .initial.scalars = {0.0f}},
+  {.name = "axis", .type = SBFI_ENUM, .number = 8, .since_minor = 0, .offset = offsetof(sbf_follower, axis), .width = 1, .unit = "", .initial.integer = 1, .words.at = bone_axis_values, .words.count = 3},
+  {.name = "strength", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_follower, strength), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .initial.scalars = {1.0f}},
+  {.name = "limit", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_follower, limit), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = true, .range.max_open = true, .initial.scalars = {0.5f}},
 };
 static const sbfi_element follower_element = {"follower", "follower", sizeof(sbf_follower), 0, 10, follower_fields, NULL};
 
 static const sbfi_field track_fields[] = {
-  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_track, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "property", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_track, property), .width = 1, .unit = "", .required = true, .values = track_property_values, .value_count = 3},
-  {.name = "interpolation", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_track, interpolation), .width = 1, .unit = "", .default_integer = 0, .values = interpolation_values, .value_count = 3},
+  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_track, bone), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "property", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_track, property), .width = 1, .unit = "", .required = true, .words.at = track_property_values, .words.count = 3},
+  {.name = "interpolation", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_track, interpolation), .width = 1, .unit = "", .initial.integer = 0, .words.at = interpolation_values, .words.count = 3},
   {.name = "times", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_track, times), .width = 1, .unit = "s", .item = SBFI_ITEM_F32},
   {.name = "values", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_track, values), .width = 1, .unit = "", .item = SBFI_ITEM_F32},
 };
 static const sbfi_element track_element = {"track", "track", sizeof(sbf_track), 0, 5, track_fields, NULL};
 
 static const sbfi_field clip_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_clip, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_clip, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "duration", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_clip, duration), .width = 1, .unit = "s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "loop", .type = SBFI_BOOL, .number = 4, .since_minor = 0, .offset = offsetof(sbf_clip, loop), .width = 1, .unit = "", .default_integer = 1},
-  {.name = "tracks", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_clip, tracks), .width = 1, .unit = "", .element = &track_element, .xml = "track"},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_clip, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_clip, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "duration", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_clip, duration), .width = 1, .unit = "s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "loop", .type = SBFI_BOOL, .number = 4, .since_minor = 0, .offset = offsetof(sbf_clip, loop), .width = 1, .unit = "", .initial.integer = 1},
+  {.name = "tracks", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_clip, tracks), .width = 1, .unit = "", .element = &track_element, .tag.xml = "track"},
 };
 static const sbfi_element clip_element = {"clip", "clip", sizeof(sbf_clip), SBFI_KIND('C', 'L', 'I', 'P'), 5, clip_fields, NULL};
 
 static const sbfi_field pose_key_fields[] = {
-  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pose_key, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
+  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pose_key, bone), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
   {.name = "translation", .type = SBFI_VEC3, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pose_key, translation), .width = 3, .unit = "m"},
-  {.name = "rotation", .type = SBFI_QUAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pose_key, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
+  {.name = "rotation", .type = SBFI_QUAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pose_key, rotation), .width = 4, .unit = "", .initial.scalars = {0, 0, 0, 1}},
 };
 static const sbfi_element pose_key_element = {"pose_key", "pose_key", sizeof(sbf_pose_key), 0, 3, pose_key_fields, NULL};
 
 static const sbfi_field pose_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pose, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pose, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pose, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pose, name), .width = 1, .unit = "", .initial.text = ""},
   {.name = "distance", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pose, distance), .width = 1, .unit = "m"},
-  {.name = "keys", .type = SBFI_MANY, .number = 4, .since_minor = 0, .offset = offsetof(sbf_pose, keys), .width = 1, .unit = "", .element = &pose_key_element, .xml = "pose_key"},
-  {.name = "speed", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_pose, speed), .width = 1, .unit = "m/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "mirrored", .type = SBFI_BOOL, .number = 6, .since_minor = 0, .offset = offsetof(sbf_pose, mirrored), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "keys", .type = SBFI_MANY, .number = 4, .since_minor = 0, .offset = offsetof(sbf_pose, keys), .width = 1, .unit = "", .element = &pose_key_element, .tag.xml = "pose_key"},
+  {.name = "speed", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_pose, speed), .width = 1, .unit = "m/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "mirrored", .type = SBFI_BOOL, .number = 6, .since_minor = 0, .offset = offsetof(sbf_pose, mirrored), .width = 1, .unit = "", .initial.integer = 0},
 };
 static const sbfi_element pose_element = {"pose", "pose", sizeof(sbf_pose), 0, 6, pose_fields, NULL};
 
 static const sbfi_length bone_mask_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_length bone_mask_weights_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_bone_mask, bones)}}, "bones"}};
 static const sbfi_field bone_mask_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_bone_mask, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_bone_mask, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_bone_mask, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_bone_mask, name), .width = 1, .unit = "", .initial.text = ""},
   {.name = "bones", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_bone_mask, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &bone_mask_bones_index},
-  {.name = "weights", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_bone_mask, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 2, .lengths = bone_mask_weights_lengths},
+  {.name = "weights", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_bone_mask, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .length_count = 2, .lengths = bone_mask_weights_lengths},
 };
 static const sbfi_element bone_mask_element = {"bone_mask", "bone_mask", sizeof(sbf_bone_mask), 0, 4, bone_mask_fields, NULL};
 
 static const sbfi_length retarget_chain_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_field retarget_chain_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_retarget_chain, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_retarget_chain, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_retarget_chain, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_retarget_chain, name), .width = 1, .unit = "", .initial.text = ""},
   {.name = "bones", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_retarget_chain, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &retarget_chain_bones_index},
 };
 static const sbfi_element retarget_chain_element = {"retarget_chain", "retarget_chain", sizeof(sbf_retarget_chain), 0, 3, retarget_chain_fields, NULL};
 
 static const sbfi_field force_field_fields[] = {
-  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_force_field, id), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_force_field, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "kind", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_force_field, kind), .width = 1, .unit = "", .required = true, .values = field_kind_values, .value_count = 4},
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_force_field, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_force_field, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "kind", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_force_field, kind), .width = 1, .unit = "", .required = true, .words.at = field_kind_values, .words.count = 4},
   {.name = "position", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_force_field, position), .width = 3, .unit = "m"},
   {.name = "direction", .type = SBFI_VEC3, .number = 5, .since_minor = 0, .offset = offsetof(sbf_force_field, direction), .width = 3, .unit = ""},
   {.name = "strength", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_force_field, strength), .width = 1, .unit = "m/s^2"},
-  {.name = "radius", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_force_field, radius), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "falloff", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_force_field, falloff), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "radius", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_force_field, radius), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "falloff", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_force_field, falloff), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
 };
 static const sbfi_element force_field_element = {"force_field", "force_field", sizeof(sbf_force_field), 0, 8, force_field_fields, NULL};
 
 static const sbfi_field environment_fields[] = {
-  {.name = "gravity", .type = SBFI_VEC3, .number = 1, .since_minor = 0, .offset = offsetof(sbf_environment, gravity), .width = 3, .unit = "m/s^2", .defaults = {0.0f, -9.81f, 0.0f}},
+  {.name = "gravity", .type = SBFI_VEC3, .number = 1, .since_minor = 0, .offset = offsetof(sbf_environment, gravity), .width = 3, .unit = "m/s^2", .initial.scalars = {0.0f, -9.81f, 0.0f}},
   {.name = "wind", .type = SBFI_VEC3, .number = 2, .since_minor = 0, .offset = offsetof(sbf_environment, wind), .width = 3, .unit = "m/s"},
-  {.name = "media_density", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_environment, media_density), .width = 1, .unit = "kg/m^3", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "media_friction", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_environment, media_friction), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "control_tick", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_environment, control_tick), .width = 1, .unit = "s", .has_range = true, .min = 0.0, .max = 1.0, .min_open = true, .max_open = false, .defaults = {0.016666668f}},
-  {.name = "fields", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_environment, fields), .width = 1, .unit = "", .element = &force_field_element, .xml = "force_field"},
-  {.name = "has_water", .type = SBFI_BOOL, .number = 7, .since_minor = 2, .offset = offsetof(sbf_environment, has_water), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "media_density", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_environment, media_density), .width = 1, .unit = "kg/m^3", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "media_friction", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_environment, media_friction), .width = 1, .unit = "1/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "control_tick", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_environment, control_tick), .width = 1, .unit = "s", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = true, .range.max_open = false, .initial.scalars = {0.016666668f}},
+  {.name = "fields", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_environment, fields), .width = 1, .unit = "", .element = &force_field_element, .tag.xml = "force_field"},
+  {.name = "has_water", .type = SBFI_BOOL, .number = 7, .since_minor = 2, .offset = offsetof(sbf_environment, has_water), .width = 1, .unit = "", .initial.integer = 0},
   {.name = "water_level", .type = SBFI_FLOAT, .number = 8, .since_minor = 2, .offset = offsetof(sbf_environment, water_level), .width = 1, .unit = "m"},
 };
 static const sbfi_element environment_element = {"environment", "environment", sizeof(sbf_environment), 0, 8, environment_fields, NULL};
 
 static const sbfi_field relaxation_fields[] = {
-  {.name = "stiffness", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_relaxation, stiffness), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.3f}},
-  {.name = "damping", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_relaxation, damping), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.9f}},
-  {.name = "gravity", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_relaxation, gravity), .width = 1, .unit = "m", .defaults = {0.001f}},
+  {.name = "stiffness", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_relaxation, stiffness), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.3f}},
+  {.name = "damping", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_relaxation, damping), .width = 1, .unit = "", .range.is_stated = true, .range.min = 0.0, .range.max = 1.0, .range.min_open = false, .range.max_open = false, .initial.scalars = {0.9f}},
+  {.name = "gravity", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_relaxation, gravity), .width = 1, .unit = "m", .initial.scalars = {0.001f}},
 };
 static const sbfi_element relaxation_element = {"relaxation", "relaxation", sizeof(sbf_relaxation), 0, 3, relaxation_fields, NULL};
 
 static const sbfi_field extension_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_extension, name), .width = 1, .unit = "", .required = true, .default_text = ""},
-  {.name = "required", .type = SBFI_BOOL, .number = 2, .since_minor = 0, .offset = offsetof(sbf_extension, required), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "data", .type = SBFI_TEXT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_extension, data), .width = 1, .unit = "", .default_text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_extension, name), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "required", .type = SBFI_BOOL, .number = 2, .since_minor = 0, .offset = offsetof(sbf_extension, required), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "data", .type = SBFI_TEXT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_extension, data), .width = 1, .unit = "", .initial.text = ""},
 };
 static const sbfi_element extension_element = {"extension", "extension", sizeof(sbf_extension), 0, 3, extension_fields, NULL};
 
 static const sbfi_field section_recipe_fields[] = {
-  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_section_recipe, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "attributes", .type = SBFI_ONE, .number = 2, .since_minor = 0, .offset = offsetof(sbf_section_recipe, attributes), .width = 1, .unit = "", .element = &attributes_element, .xml = "attributes"},
-  {.name = "collision", .type = SBFI_ONE, .number = 3, .since_minor = 0, .offset = offsetof(sbf_section_recipe, collision), .width = 1, .unit = "", .element = &collision_element, .xml = "collision"},
-  {.name = "rigid", .type = SBFI_BOOL, .number = 4, .since_minor = 2, .offset = offsetof(sbf_section_recipe, rigid), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "proposed", .type = SBFI_BOOL, .number = 5, .since_minor = 2, .offset = offsetof(sbf_section_recipe, proposed), .width = 1, .unit = "", .default_integer = 0},
-  {.name = "elements", .type = SBFI_UINT, .number = 6, .since_minor = 3, .offset = offsetof(sbf_section_recipe, elements), .width = 1, .unit = "", .default_integer = 0u},
+  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_section_recipe, bone), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "attributes", .type = SBFI_ONE, .number = 2, .since_minor = 0, .offset = offsetof(sbf_section_recipe, attributes), .width = 1, .unit = "", .element = &attributes_element, .tag.xml = "attributes"},
+  {.name = "collision", .type = SBFI_ONE, .number = 3, .since_minor = 0, .offset = offsetof(sbf_section_recipe, collision), .width = 1, .unit = "", .element = &collision_element, .tag.xml = "collision"},
+  {.name = "rigid", .type = SBFI_BOOL, .number = 4, .since_minor = 2, .offset = offsetof(sbf_section_recipe, rigid), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "proposed", .type = SBFI_BOOL, .number = 5, .since_minor = 2, .offset = offsetof(sbf_section_recipe, proposed), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "elements", .type = SBFI_UINT, .number = 6, .since_minor = 3, .offset = offsetof(sbf_section_recipe, elements), .width = 1, .unit = "", .initial.integer = 0u},
 };
 static const sbfi_element section_recipe_element = {"section_recipe", "section_recipe", sizeof(sbf_section_recipe), 0, 6, section_recipe_fields, NULL};
 
 static const sbfi_field asset_fields[] = {
-  {.name = "version", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_asset, version), .width = 1, .unit = "", .required = true, .default_text = "1.0"},
-  {.name = "info", .type = SBFI_ONE, .number = 2, .since_minor = 0, .offset = offsetof(sbf_asset, info), .width = 1, .unit = "", .element = &info_element, .xml = "asset"},
-  {.name = "derivations", .type = SBFI_MANY, .number = 3, .since_minor = 0, .offset = offsetof(sbf_asset, derivations), .width = 1, .unit = "", .element = &derivation_element, .xml = "derivation", .wrapper = "derivations"},
-  {.name = "textures", .type = SBFI_MANY, .number = 4, .since_minor = 0, .offset = offsetof(sbf_asset, textures), .width = 1, .unit = "", .element = &texture_element, .xml = "texture", .wrapper = "textures"},
-  {.name = "materials", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_asset, materials), .width = 1, .unit = "", .element = &material_element, .xml = "material", .wrapper = "materials"},
-  {.name = "bones", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_asset, bones), .width = 1, .unit = "", .element = &bone_element, .xml = "bone", .wrapper = "skeleton"},
-  {.name = "rigid_bodies", .type = SBFI_MANY, .number = 7, .since_minor = 0, .offset = offsetof(sbf_asset, rigid_bodies), .width = 1, .unit = "", .element = &rigid_body_element, .xml = "rigid_body", .wrapper = "rigid_bodies"},
-  {.name = "joints", .type = SBFI_MANY, .number = 8, .since_minor = 0, .offset = offsetof(sbf_asset, joints), .width = 1, .unit = "", .element = &joint_element, .xml = "joint", .wrapper = "joints", .suffix = "_joint", .by = "kind"},
-  {.name = "render_meshes", .type = SBFI_MANY, .number = 9, .since_minor = 0, .offset = offsetof(sbf_asset, render_meshes), .width = 1, .unit = "", .element = &render_mesh_element, .xml = "render_mesh"},
-  {.name = "soft_bodies", .type = SBFI_MANY, .number = 10, .since_minor = 0, .offset = offsetof(sbf_asset, soft_bodies), .width = 1, .unit = "", .element = &soft_body_element, .xml = "soft_body"},
-  {.name = "cross_springs", .type = SBFI_MANY, .number = 11, .since_minor = 0, .offset = offsetof(sbf_asset, cross_springs), .width = 1, .unit = "", .element = &cross_springs_element, .xml = "cross_springs"},
-  {.name = "ik_chains", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_asset, ik_chains), .width = 1, .unit = "", .element = &ik_chain_element, .xml = "ik_chain", .wrapper = "ik"},
-  {.name = "gaits", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_asset, gaits), .width = 1, .unit = "", .element = &gait_element, .xml = "gait"},
-  {.name = "chains", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_asset, chains), .width = 1, .unit = "", .element = &chain_element, .xml = "chain", .wrapper = "chains"},
-  {.name = "followers", .type = SBFI_MANY, .number = 15, .since_minor = 0, .offset = offsetof(sbf_asset, followers), .width = 1, .unit = "", .element = &follower_element, .xml = "follower", .wrapper = "followers"},
-  {.name = "clips", .type = SBFI_MANY, .number = 16, .since_minor = 0, .offset = offsetof(sbf_asset, clips), .width = 1, .unit = "", .element = &clip_element, .xml = "clip", .wrapper = "clips"},
-  {.name = "poses", .type = SBFI_MANY, .number = 17, .since_minor = 0, .offset = offsetof(sbf_asset, poses), .width = 1, .unit = "", .element = &pose_element, .xml = "pose", .wrapper = "poses"},
-  {.name = "bone_masks", .type = SBFI_MANY, .number = 18, .since_minor = 0, .offset = offsetof(sbf_asset, bone_masks), .width = 1, .unit = "", .element = &bone_mask_element, .xml = "bone_mask", .wrapper = "bone_masks"},
-  {.name = "retarget_chains", .type = SBFI_MANY, .number = 19, .since_minor = 0, .offset = offsetof(sbf_asset, retarget_chains), .width = 1, .unit = "", .element = &retarget_chain_element, .xml = "retarget_chain", .wrapper = "retarget_chains"},
-  {.name = "environment", .type = SBFI_ONE, .number = 20, .since_minor = 0, .offset = offsetof(sbf_asset, environment), .width = 1, .unit = "", .element = &environment_element, .xml = "environment"},
-  {.name = "relaxation", .type = SBFI_ONE, .number = 21, .since_minor = 0, .offset = offsetof(sbf_asset, relaxation), .width = 1, .unit = "", .element = &relaxation_element, .xml = "relaxation"},
-  {.name = "extensions", .type = SBFI_MANY, .number = 22, .since_minor = 0, .offset = offsetof(sbf_asset, extensions), .width = 1, .unit = "", .element = &extension_element, .xml = "extension", .wrapper = "extensions"},
-  {.name = "section_recipes", .type = SBFI_MANY, .number = 23, .since_minor = 0, .offset = offsetof(sbf_asset, section_recipes), .width = 1, .unit = "", .element = &section_recipe_element, .xml = "section_recipe", .wrapper = "section_recipes"},
+  {.name = "version", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_asset, version), .width = 1, .unit = "", .required = true, .initial.text = "1.0"},
+  {.name = "info", .type = SBFI_ONE, .number = 2, .since_minor = 0, .offset = offsetof(sbf_asset, info), .width = 1, .unit = "", .element = &info_element, .tag.xml = "asset"},
+  {.name = "derivations", .type = SBFI_MANY, .number = 3, .since_minor = 0, .offset = offsetof(sbf_asset, derivations), .width = 1, .unit = "", .element = &derivation_element, .tag.xml = "derivation", .tag.wrapper = "derivations"},
+  {.name = "textures", .type = SBFI_MANY, .number = 4, .since_minor = 0, .offset = offsetof(sbf_asset, textures), .width = 1, .unit = "", .element = &texture_element, .tag.xml = "texture", .tag.wrapper = "textures"},
+  {.name = "materials", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_asset, materials), .width = 1, .unit = "", .element = &material_element, .tag.xml = "material", .tag.wrapper = "materials"},
+  {.name = "bones", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_asset, bones), .width = 1, .unit = "", .element = &bone_element, .tag.xml = "bone", .tag.wrapper = "skeleton"},
+  {.name = "rigid_bodies", .type = SBFI_MANY, .number = 7, .since_minor = 0, .offset = offsetof(sbf_asset, rigid_bodies), .width = 1, .unit = "", .element = &rigid_body_element, .tag.xml = "rigid_body", .tag.wrapper = "rigid_bodies"},
+  {.name = "joints", .type = SBFI_MANY, .number = 8, .since_minor = 0, .offset = offsetof(sbf_asset, joints), .width = 1, .unit = "", .element = &joint_element, .tag.xml = "joint", .tag.wrapper = "joints", .tag.suffix = "_joint", .tag.by = "kind"},
+  {.name = "render_meshes", .type = SBFI_MANY, .number = 9, .since_minor = 0, .offset = offsetof(sbf_asset, render_meshes), .width = 1, .unit = "", .element = &render_mesh_element, .tag.xml = "render_mesh"},
+  {.name = "soft_bodies", .type = SBFI_MANY, .number = 10, .since_minor = 0, .offset = offsetof(sbf_asset, soft_bodies), .width = 1, .unit = "", .element = &soft_body_element, .tag.xml = "soft_body"},
+  {.name = "cross_springs", .type = SBFI_MANY, .number = 11, .since_minor = 0, .offset = offsetof(sbf_asset, cross_springs), .width = 1, .unit = "", .element = &cross_springs_element, .tag.xml = "cross_springs"},
+  {.name = "ik_chains", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_asset, ik_chains), .width = 1, .unit = "", .element = &ik_chain_element, .tag.xml = "ik_chain", .tag.wrapper = "ik"},
+  {.name = "gaits", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_asset, gaits), .width = 1, .unit = "", .element = &gait_element, .tag.xml = "gait"},
+  {.name = "chains", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_asset, chains), .width = 1, .unit = "", .element = &chain_element, .tag.xml = "chain", .tag.wrapper = "chains"},
+  {.name = "followers", .type = SBFI_MANY, .number = 15, .since_minor = 0, .offset = offsetof(sbf_asset, followers), .width = 1, .unit = "", .element = &follower_element, .tag.xml = "follower", .tag.wrapper = "followers"},
+  {.name = "clips", .type = SBFI_MANY, .number = 16, .since_minor = 0, .offset = offsetof(sbf_asset, clips), .width = 1, .unit = "", .element = &clip_element, .tag.xml = "clip", .tag.wrapper = "clips"},
+  {.name = "poses", .type = SBFI_MANY, .number = 17, .since_minor = 0, .offset = offsetof(sbf_asset, poses), .width = 1, .unit = "", .element = &pose_element, .tag.xml = "pose", .tag.wrapper = "poses"},
+  {.name = "bone_masks", .type = SBFI_MANY, .number = 18, .since_minor = 0, .offset = offsetof(sbf_asset, bone_masks), .width = 1, .unit = "", .element = &bone_mask_element, .tag.xml = "bone_mask", .tag.wrapper = "bone_masks"},
+  {.name = "retarget_chains", .type = SBFI_MANY, .number = 19, .since_minor = 0, .offset = offsetof(sbf_asset, retarget_chains), .width = 1, .unit = "", .element = &retarget_chain_element, .tag.xml = "retarget_chain", .tag.wrapper = "retarget_chains"},
+  {.name = "environment", .type = SBFI_ONE, .number = 20, .since_minor = 0, .offset = offsetof(sbf_asset, environment), .width = 1, .unit = "", .element = &environment_element, .tag.xml = "environment"},
+  {.name = "relaxation", .type = SBFI_ONE, .number = 21, .since_minor = 0, .offset = offsetof(sbf_asset, relaxation), .width = 1, .unit = "", .element = &relaxation_element, .tag.xml = "relaxation"},
+  {.name = "extensions", .type = SBFI_MANY, .number = 22, .since_minor = 0, .offset = offsetof(sbf_asset, extensions), .width = 1, .unit = "", .element = &extension_element, .tag.xml = "extension", .tag.wrapper = "extensions"},
+  {.name = "section_recipes", .type = SBFI_MANY, .number = 23, .since_minor = 0, .offset = offsetof(sbf_asset, section_recipes), .width = 1, .unit = "", .element = &section_recipe_element, .tag.xml = "section_recipe", .tag.wrapper = "section_recipes"},
 };
 const sbfi_element sbfi_asset_element = {"asset", "sbf", sizeof(sbf_asset), SBFI_KIND('R', 'O', 'O', 'T'), 23, asset_fields, NULL};
 

@@ -72,8 +72,8 @@ static bool read_vector(const reading *r, const sbfi_field *field, const sbfi_js
 }
 
 static bool read_enum(const reading *r, const sbfi_field *field, const sbfi_json *json) {
-  for (uint32_t i = 0; i < field->value_count; i++)
-    if (sbfi_json_is_string(json, field->values[i])) {
+  for (uint32_t i = 0; i < field->words.count; i++)
+    if (sbfi_json_is_string(json, field->words.at[i])) {
       sbfi_set_integer(r->object, field, (int32_t)i);
       return true;
     }

@@ -121,11 +121,11 @@ typedef struct bounds {
  * the bound itself. */
 static bounds bounds_of(const sbfi_field *field) {
   bounds b = {-FLT_MAX, FLT_MAX};
-  if (!field->has_range) return b;
-  if (field->min > -FLT_MAX)
-    b.low = field->min_open ? next_float((float)field->min, true) : (float)field->min;
-  if (field->max < FLT_MAX)
-    b.high = field->max_open ? next_float((float)field->max, false) : (float)field->max;
+  if (!field->range.is_stated) return b;
+  if (field->range.min > -FLT_MAX)
+    b.low = field->range.min_open ? next_float((float)field->range.min, true) : (float)field->range.min;
+  if (field->range.max < FLT_MAX)
+    b.high = field->range.max_open ? next_float((float)field->range.max, false) : (float)field->range.max;
   return b;
 }
 
@@ -148,8 +148,9 @@ typedef struct range_text {
 
 static range_text text_of_range(const sbfi_field *field) {
   range_text text;
-  snprintf(text.at, sizeof text.at, "%c%s, %s%c%s%s", field->min_open ? '(' : '[', text_of(field->min).at,
-      text_of(field->max).at, field->max_open ? ')' : ']', *field->unit ? " " : "", field->unit);
+  snprintf(text.at, sizeof text.at, "%c%s, %s%c%s%s", field->range.min_open ? '(' : '[',
+      text_of(field->range.min).at, text_of(field->range.max).at, field->range.max_open ? ')' : ']',
+      *field->unit ? " " : "", field->unit);
   return text;
 }
 
@@ -187,8 +188,9 @@ static void check_floats(
 static void check_integer(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
   int32_t value = sbfi_get_integer(path->object, field);
   double number = field->type == SBFI_UINT ? (double)(uint32_t)value : (double)value;
-  if (!field->has_range || ((field->min_open ? number > field->min : number >= field->min) &&
-                               (field->max_open ? number < field->max : number <= field->max)))
+  if (!field->range.is_stated ||
+      ((field->range.min_open ? number > field->range.min : number >= field->range.min) &&
+          (field->range.max_open ? number < field->range.max : number <= field->range.max)))
     return;
   fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, -1, "`%s` is %.0f, outside %s: use a value inside",
       field->name, number, text_of_range(field).at);
@@ -196,9 +198,9 @@ static void check_integer(checker *c, const sbfi_element_path *path, const sbfi_
 
 static void check_enum(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
   int32_t value = sbfi_get_integer(path->object, field);
-  if ((uint32_t)value >= field->value_count)
+  if ((uint32_t)value >= field->words.count)
     fault(c, SBF_CODE_ENUM_OUT_OF_RANGE, path, field, -1, "`%s` is %d, but its values are numbered 0 to %u",
-        field->name, value, field->value_count - 1);
+        field->name, value, field->words.count - 1);
 }
 
 static void check_ref(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
@@ -207,14 +209,14 @@ static void check_ref(checker *c, const sbfi_element_path *path, const sbfi_fiel
   if (value == SBF_NONE) {
     if (field->required)
       fault(c, SBF_CODE_REQUIRED_MISSING, path, field, -1, "`%s` must name one of the %s", field->name,
-          field->target_name);
+          field->reference.name);
   } else if ((uint32_t)value >= count) {
     fault(c, SBF_CODE_INDEX_OUT_OF_RANGE, path, field, -1, "`%s` is %d, but there are %u %s", field->name,
-        value, count, field->target_name);
+        value, count, field->reference.name);
   } else if (field->earlier && (uint32_t)value >= path->index) {
     fault(c, SBF_CODE_BONE_ORDER, path, field, -1,
         "`%s` is `%s`, which does not precede it: sort the %s, each after the one it names", field->name,
-        sbfi_ref_id(c->asset, field, value), field->target_name);
+        sbfi_ref_id(c->asset, field, value), field->reference.name);
   }
 }
 
@@ -246,9 +248,9 @@ static uint32_t bound_to_u32(double bound) {
 
 static void check_integers(
     checker *c, const sbfi_element_path *path, const sbfi_field *field, const uint32_t *at, size_t count) {
-  if (!field->has_range) return;
-  uint32_t low = bound_to_u32(field->min) + (field->min_open && field->min >= 0);
-  uint32_t high = bound_to_u32(field->max) - (field->max_open && field->max <= UINT32_MAX);
+  if (!field->range.is_stated) return;
+  uint32_t low = bound_to_u32(field->range.min) + (field->range.min_open && field->range.min >= 0);
+  uint32_t high = bound_to_u32(field->range.max) - (field->range.max_open && field->range.max <= UINT32_MAX);
   size_t bad = sbfi_find_u32_outside(at, count, low, high);
   if (bad < count)
     fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, (int64_t)(bad / field->width),
@@ -298,11 +300,11 @@ static void check_list(checker *c, const sbfi_element_path *path, const sbfi_fie
 
 static void check_fixed(checker *c, const sbfi_element_path *child) {
   const sbfi_field *field = child->field;
-  if (!field->fixed_name) return;
-  const sbfi_field *fixed = sbfi_element_field(field->element, field->fixed_name);
-  if (sbfi_get_integer(child->object, fixed) != field->fixed_value)
+  if (!field->fixed.name) return;
+  const sbfi_field *fixed = sbfi_element_field(field->element, field->fixed.name);
+  if (sbfi_get_integer(child->object, fixed) != field->fixed.value)
     fault(c, SBF_CODE_FIXED_VALUE, child, fixed, -1, "`%s` must be `%s` here", fixed->name,
-        fixed->values[field->fixed_value]);
+        fixed->words.at[field->fixed.value]);
 }
 
 static void check_object(checker *c, const sbfi_element_path *path);

@@ -9,15 +9,15 @@ static bool object_is_default(const sbfi_element_path *path) {
 /* Value required by the parent, or the schema's default. */
 static int32_t expected_integer(const sbfi_element_path *path, const sbfi_field *field) {
   const sbfi_field *holder = path->field;
-  bool fixed = holder && holder->fixed_name && strcmp(holder->fixed_name, field->name) == 0;
-  return fixed ? holder->fixed_value : (int32_t)field->default_integer;
+  bool fixed = holder && holder->fixed.name && strcmp(holder->fixed.name, field->name) == 0;
+  return fixed ? holder->fixed.value : (int32_t)field->initial.integer;
 }
 
 bool sbfi_field_is_default(const sbfi_element_path *path, const sbfi_field *field) {
   const char *at = (const char *)path->object + field->offset;
   switch (field->type) {
   case SBFI_BOOL:
-    return *(const bool *)at == (field->default_integer != 0);
+    return *(const bool *)at == (field->initial.integer != 0);
   case SBFI_INT:
   case SBFI_UINT:
   case SBFI_ENUM:
@@ -29,11 +29,11 @@ bool sbfi_field_is_default(const sbfi_element_path *path, const sbfi_field *fiel
   case SBFI_VEC3:
   case SBFI_VEC4:
   case SBFI_QUAT:
-    return memcmp(at, field->defaults, field->width * sizeof(float)) == 0;
+    return memcmp(at, field->initial.scalars, field->width * sizeof(float)) == 0;
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID:
-    return strcmp(sbfi_get_pointer(path->object, field), field->default_text) == 0;
+    return strcmp(sbfi_get_pointer(path->object, field), field->initial.text) == 0;
   case SBFI_LIST:
     return sbfi_get_list(path->object, field).count == 0;
   case SBFI_ONE: {

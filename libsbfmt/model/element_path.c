@@ -35,8 +35,8 @@ sbfi_element_path sbfi_element_path_child(
 /* XPath numbers siblings of equal names; if the child defines the name, only some siblings share it. */
 static uint32_t sibling_number(const sbfi_element_path *path) {
   const sbfi_field *field = path->field;
-  if (!field->suffix) return path->index + 1;
-  const sbfi_field *by = sbfi_element_field(field->element, field->by);
+  if (!field->tag.suffix) return path->index + 1;
+  const sbfi_field *by = sbfi_element_field(field->element, field->tag.by);
   uint32_t number = 1;
   for (uint32_t i = 0; i < path->index; i++)
     number += sbfi_get_integer(sbfi_element_path_child(path->up, field, i).object, by) ==
@@ -61,7 +61,7 @@ static void append_step(path_text *path, const sbfi_element_path *location) {
     return;
   }
   append_step(path, location->up);
-  if (location->field->wrapper) append(path, "/", location->field->wrapper);
+  if (location->field->tag.wrapper) append(path, "/", location->field->tag.wrapper);
   char name[128], number[16];
   append(path, "/", sbfi_child_xml_name(location->field, location->object, name, sizeof name));
   if (location->field->type != SBFI_MANY) return;
@@ -75,7 +75,7 @@ void sbfi_element_path_print(
   path[0] = 0;
   append_step(&text, location);
   if (!field) return;
-  const char *name = field->wrapper ? field->wrapper : field->xml ? field->xml : field->name;
+  const char *name = field->tag.wrapper ? field->tag.wrapper : field->tag.xml ? field->tag.xml : field->name;
   append(&text, sbfi_field_is_attribute(field) ? "/@" : "/", name);
 }
 

@@ -96,12 +96,12 @@ bool sbfi_ids_add_collections(sbfi_ids *ids, const sbf_asset *asset) {
 
 const sbfi_field *sbfi_ref_collection(const sbfi_field *ref) {
   const sbfi_field *field = sbfi_asset_element.fields;
-  while (field->offset != ref->target) field++;
+  while (field->offset != ref->reference.offset) field++;
   return field;
 }
 
 uint32_t sbfi_ref_count(const sbf_asset *asset, const sbfi_field *ref) {
-  const sbfi_field at = {.offset = ref->target};
+  const sbfi_field at = {.offset = ref->reference.offset};
   return sbfi_get_list(asset, &at).count;
 }
 

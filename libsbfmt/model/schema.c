@@ -9,34 +9,34 @@ const sbfi_field *sbfi_element_field(const sbfi_element *element, const char *na
 }
 
 bool sbfi_child_fix(const sbfi_field *field, void *child) {
-  if (!field->fixed_name) return true;
-  const sbfi_field *fixed = sbfi_element_field(field->element, field->fixed_name);
-  bool same = sbfi_get_integer(child, fixed) == field->fixed_value;
-  sbfi_set_integer(child, fixed, field->fixed_value);
+  if (!field->fixed.name) return true;
+  const sbfi_field *fixed = sbfi_element_field(field->element, field->fixed.name);
+  bool same = sbfi_get_integer(child, fixed) == field->fixed.value;
+  sbfi_set_integer(child, fixed, field->fixed.value);
   return same;
 }
 
 static void init_field(const sbfi_field *field, char *destination) {
   switch (field->type) {
   case SBFI_BOOL:
-    *(bool *)destination = field->default_integer != 0;
+    *(bool *)destination = field->initial.integer != 0;
     break;
   case SBFI_INT:
   case SBFI_UINT:
   case SBFI_ENUM:
-    memcpy(destination, &field->default_integer, sizeof field->default_integer);
+    memcpy(destination, &field->initial.integer, sizeof field->initial.integer);
     break;
   case SBFI_FLOAT:
   case SBFI_VEC2:
   case SBFI_VEC3:
   case SBFI_VEC4:
   case SBFI_QUAT:
-    memcpy(destination, field->defaults, field->width * sizeof(float));
+    memcpy(destination, field->initial.scalars, field->width * sizeof(float));
     break;
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID:
-    memcpy(destination, &field->default_text, sizeof field->default_text);
+    memcpy(destination, &field->initial.text, sizeof field->initial.text);
     break;
   case SBFI_REF:
     memcpy(destination, &(int32_t){SBF_NONE}, sizeof(int32_t));
@@ -59,10 +59,10 @@ void sbfi_element_init(const sbfi_element *element, void *memory) {
 }
 
 const char *sbfi_child_xml_name(const sbfi_field *field, const void *child, char *buffer, size_t size) {
-  if (!field->suffix) return field->xml;
-  const sbfi_field *by = sbfi_element_field(field->element, field->by);
+  if (!field->tag.suffix) return field->tag.xml;
+  const sbfi_field *by = sbfi_element_field(field->element, field->tag.by);
   int32_t value = sbfi_get_integer(child, by);
-  const char *word = (uint32_t)value < by->value_count ? by->values[value] : "unknown";
-  snprintf(buffer, size, "%s%s", word, field->suffix);
+  const char *word = (uint32_t)value < by->words.count ? by->words.at[value] : "unknown";
+  snprintf(buffer, size, "%s%s", word, field->tag.suffix);
   return buffer;
 }

@@ -60,12 +60,29 @@ typedef struct sbfi_element sbfi_element;
 /* Four letters as a number that is readable in a little-endian file. */
 #define SBFI_KIND(a, b, c, d) ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
 
+/* Names of child elements in XML. */
+typedef struct sbfi_field_tag {
+  const char *xml;     /* of the child elements; NULL: not a child */
+  const char *wrapper; /* element around the children; NULL: none */
+  const char *suffix;  /* the children's element name is the value of their field `by` with this suffix */
+  const char *by;      /* with suffix: the children's enum field */
+} sbfi_field_tag;
+
+/* Range of each scalar. */
+typedef struct sbfi_range {
+  double min, max; /* infinite if unbounded */
+  bool is_stated, min_open, max_open;
+} sbfi_range;
+
+/* Default of a field, by its type. */
+typedef struct sbfi_default {
+  float scalars[4];
+  uint32_t integer;
+  const char *text;
+} sbfi_default;
+
 typedef struct sbfi_field {
   const char *name;     /* in C, and of the attribute or the list's element in XML */
-  const char *xml;      /* of the child elements in XML; NULL for others */
-  const char *wrapper;  /* element around the children; NULL: none */
-  const char *suffix;   /* the children's element name is the value of their field `by` with this suffix */
-  const char *by;       /* with suffix: the children's enum field */
   const char *unit;     /* "" if there is none */
   uint16_t number;      /* in the packed form */
   uint16_t since_minor; /* first version 1.x with it */
@@ -73,21 +90,26 @@ typedef struct sbfi_field {
   sbfi_item item;  /* of a list */
   uint32_t width;  /* scalars in an item of a list, or in a vector; otherwise 1 */
   uint32_t offset; /* in the struct */
-  bool required, volatile_, has_range, min_open, max_open;
-  bool earlier;    /* a reference to an item before this one */
-  bool positive;   /* the four points of each item span a positive volume */
-  double min, max; /* of each scalar, infinite if unbounded */
-  float defaults[4];
-  uint32_t default_integer;
-  const char *default_text;
-  const char *const *values; /* of an enum */
-  uint32_t value_count;
+  bool required, volatile_;
+  bool earlier;  /* a reference to an item before this one */
+  bool positive; /* the four points of each item span a positive volume */
+  sbfi_range range;
+  sbfi_default initial;
+  struct {
+    const char *const *at;
+    uint32_t count;
+  } words;                     /* of an enum */
   const sbfi_element *element; /* of children */
-  const char *fixed_name;      /* field of the child that always has fixed_value; NULL: none */
-  int32_t fixed_value;
-  uint32_t target;         /* of a reference: offset of the collection in the root */
-  const char *target_name; /* its name */
-  uint32_t length_count;   /* a list has one of these lengths; 0: any */
+  sbfi_field_tag tag;          /* of children */
+  struct {
+    const char *name; /* field of the child that always has `value`; NULL: none */
+    int32_t value;
+  } fixed;
+  struct {
+    uint32_t offset; /* of the collection in the root that a reference refers to */
+    const char *name;
+  } reference;
+  uint32_t length_count; /* a list has one of these lengths; 0: any */
   const sbfi_length *lengths;
   const sbfi_length *index; /* upper bound of the items; NULL: not indices */
 } sbfi_field;

@@ -76,17 +76,17 @@ static bool is_default(const sbfi_field *field, const void *object) {
   const int32_t none = SBF_NONE;
   switch (field->type) {
   case SBFI_BOOL:
-    return *(const bool *)destination == (field->default_integer != 0);
+    return *(const bool *)destination == (field->initial.integer != 0);
   case SBFI_INT:
   case SBFI_UINT:
   case SBFI_ENUM:
-    return memcmp(destination, &field->default_integer, sizeof field->default_integer) == 0;
+    return memcmp(destination, &field->initial.integer, sizeof field->initial.integer) == 0;
   case SBFI_REF:
     return memcmp(destination, &none, sizeof none) == 0;
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID:
-    return strcmp(sbfi_get_pointer(object, field), field->default_text) == 0;
+    return strcmp(sbfi_get_pointer(object, field), field->initial.text) == 0;
   case SBFI_LIST:
   case SBFI_MANY:
     return sbfi_get_list(object, field).count == 0;
@@ -95,7 +95,7 @@ static bool is_default(const sbfi_field *field, const void *object) {
   case SBFI_ONE:
     return false;
   default: /* floats and vectors, compared bit by bit: -0 differs from 0 */
-    return memcmp(destination, field->defaults, field->width * sizeof(float)) == 0;
+    return memcmp(destination, field->initial.scalars, field->width * sizeof(float)) == 0;
   }
 }
 

@@ -55,14 +55,14 @@ static uint32_t width_of(const target *t) {
     char name[96];
     sbfi_copy_text(
         name, t->names[i].length + 1 < sizeof name ? t->names[i].length + 1 : sizeof name, t->names[i].at);
-    bool in_wrapper = field && field->wrapper && element != field->element;
+    bool in_wrapper = field && field->tag.wrapper && element != field->element;
     if (in_wrapper) {
       element = field->element;
       continue;
     }
     field = sbfi_xml_find_element(element, name);
     if (!field) return 0;
-    if (field->element && !field->wrapper) element = field->element;
+    if (field->element && !field->tag.wrapper) element = field->element;
   }
   return field && field->type == SBFI_LIST ? field->width : 0;
 }

@@ -224,8 +224,8 @@ static bool read_bool(reader *r, const sbfi_field *field, sbfi_span value, bool 
 }
 
 static bool read_enum(reader *r, const sbfi_field *field, sbfi_span value, void *object) {
-  for (uint32_t i = 0; i < field->value_count; i++)
-    if (sbfi_span_is(value, field->values[i])) {
+  for (uint32_t i = 0; i < field->words.count; i++)
+    if (sbfi_span_is(value, field->words.at[i])) {
       sbfi_set_integer(object, field, (int32_t)i);
       return true;
     }
@@ -285,8 +285,8 @@ static bool unknown_attribute(reader *r, const char *name) {
   const open_element *self = top(r);
   if (r->newer_minor) return leave_out(r, "/@", name);
   if (self->kind == OPEN_OBJECT) {
-    if (sbfi_element_field(self->element, name) && self->field && self->field->by &&
-        strcmp(self->field->by, name) == 0)
+    if (sbfi_element_field(self->element, name) && self->field && self->field->tag.by &&
+        strcmp(self->field->tag.by, name) == 0)
       fail(r, SBF_CODE_XML_UNKNOWN_ATTRIBUTE, NULL, "the element's name states `%.60s`: remove it", name);
     else if (sbfi_xml_find_element(self->element, name))
       fail(r, SBF_CODE_XML_UNKNOWN_ATTRIBUTE, NULL, "`%.60s` is an element: write it between the tags", name);
@@ -336,11 +336,11 @@ static bool check_attributes(reader *r) {
         field->name);
   }
   const sbfi_field *holder = self->field;
-  if (!holder || !holder->fixed_name) return true;
-  const sbfi_field *fixed = sbfi_element_field(self->element, holder->fixed_name);
-  return sbfi_get_integer(self->object, fixed) == holder->fixed_value ||
+  if (!holder || !holder->fixed.name) return true;
+  const sbfi_field *fixed = sbfi_element_field(self->element, holder->fixed.name);
+  return sbfi_get_integer(self->object, fixed) == holder->fixed.value ||
          fail(r, SBF_CODE_FIXED_VALUE, fixed, "`%s` must be `%s` here", fixed->name,
-             fixed->values[holder->fixed_value]);
+             fixed->words.at[holder->fixed.value]);
 }
 
 /* --- elements that begin --- */
@@ -422,7 +422,7 @@ static bool begin_child(reader *r, const sbfi_field *field, const char *name,
   self->object = child;
   self->index = index;
   if (sbfi_xml_is_child(field, name, &value) && value >= 0)
-    sbfi_set_integer(child, sbfi_element_field(field->element, field->by), value);
+    sbfi_set_integer(child, sbfi_element_field(field->element, field->tag.by), value);
   return read_attributes(r, attributes, count) && check_attributes(r);
 }
 
@@ -455,8 +455,8 @@ static bool unknown_element(reader *r, const char *name) {
   } else if (r->newer_minor) {
     return leave_out(r, "/", name) && push(r, OPEN_SKIPPED, NULL) != NULL;
   } else if (around->kind == OPEN_WRAPPER) {
-    fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%s> cannot contain <%.60s>%s", around->field->wrapper, name,
-        sbfi_xml_suggest_child(around->field, name).at);
+    fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%s> cannot contain <%.60s>%s", around->field->tag.wrapper,
+        name, sbfi_xml_suggest_child(around->field, name).at);
   } else if (sbfi_xml_find_attribute(around->element, around->field, name)) {
     fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "`%.60s` is an attribute: write it inside the tag", name);
   } else {
@@ -473,13 +473,13 @@ static bool begin_in_object(
   if (!field) return unknown_element(r, name);
   if (field->since_minor > r->minor) return refuse_later(r, field);
   uint64_t bit = (uint64_t)1 << (field - around->element->fields);
-  bool many = field->type == SBFI_MANY && !field->wrapper;
+  bool many = field->type == SBFI_MANY && !field->tag.wrapper;
   if (around->seen & bit && !many)
     return fail(r, SBF_CODE_XML_REPEATED, field, "<%.60s> occurs here a second time: merge the two", name);
   around->seen |= bit;
   if (field->type == SBFI_LIST) return begin_plain(r, OPEN_LIST, field, attributes, count);
   if (field->type == SBFI_TEXT) return begin_plain(r, OPEN_TEXT, field, attributes, count);
-  if (field->wrapper) return begin_plain(r, OPEN_WRAPPER, field, attributes, count);
+  if (field->tag.wrapper) return begin_plain(r, OPEN_WRAPPER, field, attributes, count);
   return begin_child(r, field, name, attributes, count);
 }
 

@@ -30,13 +30,13 @@ static void report_unknown(resolver *r, const sbfi_element_path *path, const sbf
   sbf_diagnostic *diagnostic = &r->findings->at[r->findings->count++];
   if (other)
     sbfi_diagnose(diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, which is in %s, not in %s",
-        field->name, text, other->collection->name, field->target_name);
+        field->name, text, other->collection->name, field->reference.name);
   else if (!*text)
     sbfi_diagnose(
         diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` is empty: remove it if it refers to nothing", field->name);
   else
     sbfi_diagnose(diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, but no item of %s has that id%s",
-        field->name, text, field->target_name, suggest_id(r->asset, field, text).at);
+        field->name, text, field->reference.name, suggest_id(r->asset, field, text).at);
   sbfi_element_path_print(path, field, diagnostic->path, sizeof diagnostic->path);
 }
 
@@ -53,9 +53,9 @@ static void resolve_ref(resolver *r, const sbfi_element_path *path, const sbfi_f
   if (slot == SBF_NONE) return;
   const char *text = r->texts[slot];
   const sbfi_id_entry *entry = sbfi_ids_find(&r->ids, text);
-  int32_t index = entry && entry->collection->offset == field->target ? (int32_t)entry->index
-                  : entry                                             ? find_repeated(r, field, text)
-                                                                      : SBF_NONE;
+  int32_t index = entry && entry->collection->offset == field->reference.offset ? (int32_t)entry->index
+                  : entry ? find_repeated(r, field, text)
+                          : SBF_NONE;
   if (index == SBF_NONE) report_unknown(r, path, field, text, entry);
   /* the reader created the asset and may modify what is read-only for others */
   sbfi_set_integer((void *)(uintptr_t)path->object, field, index);

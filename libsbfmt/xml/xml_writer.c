@@ -136,7 +136,7 @@ static void write_value(writer *w, const sbfi_element_path *path, const sbfi_fie
     break;
   case SBFI_ENUM:
     integer = sbfi_get_integer(path->object, field);
-    write_escaped(w, field->values[integer], true);
+    write_escaped(w, field->words.at[integer], true);
     break;
   case SBFI_REF: {
     const char *id = sbfi_ref_id(w->asset, field, sbfi_get_integer(path->object, field));
@@ -150,12 +150,12 @@ static void write_value(writer *w, const sbfi_element_path *path, const sbfi_fie
 }
 
 static bool points_at_derivation(const sbfi_field *field) {
-  return field->type == SBFI_REF && strcmp(field->target_name, "derivations") == 0;
+  return field->type == SBFI_REF && strcmp(field->reference.name, "derivations") == 0;
 }
 
 static void write_attribute(
     writer *w, const sbfi_element_path *path, const sbfi_field *field, open_element *element) {
-  bool by_name = path->field && path->field->by && strcmp(path->field->by, field->name) == 0;
+  bool by_name = path->field && path->field->tag.by && strcmp(path->field->tag.by, field->name) == 0;
   bool is_default = sbfi_field_is_default(path, field);
   if (by_name || (is_default && !field->required)) return;
   if (w->selection.source_only && (field->volatile_ || points_at_derivation(field))) return;
@@ -277,9 +277,9 @@ static void write_children(
   uint32_t count = sbfi_child_count(path->object, field);
   size_t start = w->text->length;
   bool had_content = parent->has_content;
-  open_element wrapper = {.name = field->wrapper, .depth = parent->depth + 1};
-  open_element *inside = field->wrapper ? &wrapper : parent;
-  if (field->wrapper) {
+  open_element wrapper = {.name = field->tag.wrapper, .depth = parent->depth + 1};
+  open_element *inside = field->tag.wrapper ? &wrapper : parent;
+  if (field->tag.wrapper) {
     begin_content(w, parent);
     open_start_tag(w, &wrapper);
   }
@@ -287,7 +287,7 @@ static void write_children(
     sbfi_element_path child = sbfi_element_path_child(path, field, i);
     write_child(w, &child, inside);
   }
-  if (!field->wrapper) return;
+  if (!field->tag.wrapper) return;
   if (wrapper.has_content) {
     close_element(w, &wrapper);
     parent->is_needed = true;

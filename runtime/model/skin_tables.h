@@ -51,6 +51,22 @@ typedef struct sbri_tangent_block {
   float fractions[2][SBRI_BLOCK];
 } sbri_tangent_block;
 
+/* Tables that sum the normals of faces to those of vertices and corners. */
+typedef struct sbri_skin_normals {
+  sbri_sum_table smooth;     /* one normal per vertex, shared by vertices at the same position */
+  const uint32_t *smooth_of; /* (vertex_count) group of each */
+  sbri_sum_table split;      /* separate normals at hard edges */
+  const uint32_t *split_of;  /* (corner_count) */
+  uint32_t corner_count;
+} sbri_skin_normals;
+
+/* Tables that sum the tangents of faces to those of vertices. */
+typedef struct sbri_skin_tangents {
+  const sbri_tangent_block *blocks; /* (face_block_count); NULL: no uvs */
+  sbri_sum_table sums;              /* groups are vertices */
+  const float *handedness;          /* (vertex_count) 1 or -1 */
+} sbri_skin_tangents;
+
 typedef struct sbri_skin {
   uint32_t vertex_count;
   const uint32_t *vertices;    /* (vertex_count) of a render level: vertex of the full mesh; NULL: all */
@@ -70,15 +86,8 @@ typedef struct sbri_skin {
 
   uint32_t face_block_count; /* the last lane of the last block is unused */
   const sbri_face_block *faces;
-  sbri_sum_table smooth;     /* one normal per vertex, shared by vertices at the same position */
-  const uint32_t *smooth_of; /* (vertex_count) group of each */
-  sbri_sum_table split;      /* separate normals at hard edges */
-  const uint32_t *split_of;  /* (corner_count) */
-  uint32_t corner_count;
-
-  const sbri_tangent_block *tangent_blocks; /* (face_block_count); NULL: no uvs */
-  sbri_sum_table tangents;                  /* groups are vertices */
-  const float *handedness;                  /* (vertex_count) 1 or -1 */
+  sbri_skin_normals normals;
+  sbri_skin_tangents tangents;
 } sbri_skin;
 
 #endif

@@ -44,7 +44,7 @@ bool sbri_faces_make(sbri_skin *skin, const sbf_polygon_mesh *mesh, sbfi_arena *
     first += size;
   }
   skin->faces = faces;
-  skin->corner_count = mesh->polygon_points.count;
+  skin->normals.corner_count = mesh->polygon_points.count;
   return true;
 }
 
@@ -180,10 +180,11 @@ static bool make_tangents(sbri_skin *skin, const sbf_polygon_mesh *mesh, const s
     first += size;
   }
   for (uint32_t v = 0; v < skin->vertex_count; v++) handedness[v] = handedness[v] < 0 ? -1.0f : 1.0f;
-  skin->tangent_blocks = blocks;
-  skin->handedness = handedness;
+  skin->tangents.blocks = blocks;
+  skin->tangents.handedness = handedness;
   uint32_t inert = skin->face_block_count * SBRI_BLOCK - 1;
-  return make_sums(&skin->tangents, skin->vertex_count, mesh->polygon_points.at, mesh, inert, arena, scratch);
+  return make_sums(
+      &skin->tangents.sums, skin->vertex_count, mesh->polygon_points.at, mesh, inert, arena, scratch);
 }
 
 static bool make_shading(sbri_skin *skin, const sbf_polygon_mesh *mesh, const sbf_render_mesh *authored,
@@ -203,17 +204,17 @@ static bool make_shading(sbri_skin *skin, const sbf_polygon_mesh *mesh, const sb
     of_vertex[v] = group_for(&g, indices[v], by_vertex ? &authored->normals.at[v] : NULL);
   for (uint32_t c = 0; c < corner_count; c++) of_corner[c] = of_vertex[mesh->polygon_points.at[c]];
   uint32_t inert = skin->face_block_count * SBRI_BLOCK - 1;
-  if (!make_sums(&skin->smooth, g.group_count, of_corner, mesh, inert, arena, scratch)) return false;
-  skin->smooth_of = of_vertex;
-  skin->split_of = split_of;
+  if (!make_sums(&skin->normals.smooth, g.group_count, of_corner, mesh, inert, arena, scratch)) return false;
+  skin->normals.smooth_of = of_vertex;
+  skin->normals.split_of = split_of;
   memcpy(split_of, of_corner, corner_count * sizeof *split_of);
-  skin->split = skin->smooth;
+  skin->normals.split = skin->normals.smooth;
   if (!by_corner) return true;
   if (!begin_grouping(&g, corner_count, vertex_count, scratch)) return false;
   for (uint32_t c = 0; c < corner_count; c++)
     split_of[c] = group_for(
         &g, indices[mesh->polygon_points.at[c]], &authored->normals.at[authored->normal_corners.at[c]]);
-  return make_sums(&skin->split, g.group_count, split_of, mesh, inert, arena, scratch);
+  return make_sums(&skin->normals.split, g.group_count, split_of, mesh, inert, arena, scratch);
 }
 
 bool sbri_shading_make(

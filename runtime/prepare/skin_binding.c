@@ -343,10 +343,8 @@ static bool shade(sbr_model *model, sbri_skin *skin, const sbf_render_mesh *show
   if (model->detail.base == model) return sbri_shading_make(skin, &shown->mesh, shown, &model->arena);
   const sbri_skin *made = sbri_skin_of(model->detail.base, render_mesh, render_level);
   skin->face_block_count = made->face_block_count, skin->faces = made->faces;
-  skin->smooth = made->smooth, skin->smooth_of = made->smooth_of;
-  skin->split = made->split, skin->split_of = made->split_of, skin->corner_count = made->corner_count;
-  skin->tangent_blocks = made->tangent_blocks, skin->tangents = made->tangents;
-  skin->handedness = made->handedness;
+  skin->normals = made->normals;
+  skin->tangents = made->tangents;
   return true;
 }
 

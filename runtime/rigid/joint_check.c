@@ -13,9 +13,9 @@ void sbri_joint_rows_set_targets(sbri_edge *e) {
   for (uint32_t r = 0; r < e->row_count; r++) {
     sbri_row *row = &e->rows[r];
     if (!row->is_saturated) row->impulse = 0;
-    row->target_change = row->target - row->speed;
+    row->change.target = row->target - row->speed;
   }
-  for (uint32_t r = 0; r < e->active_count; r++) e->rhs[r] = (double)e->rows[e->actives[r]].target_change;
+  for (uint32_t r = 0; r < e->active_count; r++) e->rhs[r] = (double)e->rows[e->actives[r]].change.target;
 }
 
 /* The drive's part of its row's impulse: the rest is joint damping at the velocity after the solve. */
@@ -60,12 +60,13 @@ static void activate_limit(sbri_rigid_solving *work, const sbri_rigid_model *mod
     sbri_row *row, sbf_vec3 previous, float step_s) {
   sbri_joint_frames *joint_frames = &work->joint_frames[e - work->system.edges];
   row->clearance = 0;
-  row->position = sbri_joint_coordinate(&model->joints[e->joint], joint_frames, (sbf_joint_axis)row->axis);
+  row->limit.position =
+      sbri_joint_coordinate(&model->joints[e->joint], joint_frames, (sbf_joint_axis)row->axis);
   if (row->axis == SBF_JOINT_AXIS_TWIST)
-    row->position = sbri_nearest_twist(row->position, row->lower, row->upper);
+    row->limit.position = sbri_nearest_twist(row->limit.position, row->limit.lower, row->limit.upper);
   sbri_limit_ready(work, model, e, joint_frames, row, step_s);
-  row->target_change = row->target - row->speed;
-  row->last_change =
+  row->change.target = row->target - row->speed;
+  row->change.last =
       sbri_dot(sbri_vec3(row->rates[SBRI_B][3], row->rates[SBRI_B][4], row->rates[SBRI_B][5]), previous);
 }
 
@@ -111,8 +112,8 @@ static void move_ball(sbri_rigid_solving *work, const sbri_rigid_model *model, s
     sbri_row *row = &e->rows[r];
     if (row->clearance > 0 && row->clearance <= reach) activate_limit(work, model, e, row, previous, step_s);
     if (!row->sign) continue;
-    row->previous_change = row->last_change;
-    row->last_change =
+    row->change.previous = row->change.last;
+    row->change.last =
         sbri_dot(sbri_vec3(row->rates[SBRI_B][3], row->rates[SBRI_B][4], row->rates[SBRI_B][5]), now);
   }
 }
@@ -124,8 +125,8 @@ void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *mode
     for (uint32_t r = 0; r < e->row_count && !e->ball; r++) {
       sbri_row *row = &e->rows[r];
       if (!row->sign) continue;
-      row->previous_change = row->last_change;
-      row->last_change = (float)sbri_row_rate_change(&work->system, e, row);
+      row->change.previous = row->change.last;
+      row->change.last = (float)sbri_row_rate_change(&work->system, e, row);
     }
   }
 }
@@ -136,7 +137,7 @@ bool sbri_joint_rows_agree(const sbri_rigid_solving *work) {
     for (uint32_t r = 0; r < e->row_count; r++) {
       const sbri_row *row = &e->rows[r];
       if (row->kind == SBRI_ROW_LIMIT &&
-          row->active != ((float)row->sign * (row->target_change - row->last_change) > 0))
+          row->active != ((float)row->sign * (row->change.target - row->change.last) > 0))
         return false;
     }
   }
@@ -148,7 +149,7 @@ void sbri_joint_rows_scale_back(sbri_rigid_solving *work, float fraction) {
     const sbri_edge *e = &work->system.edges[i];
     for (uint32_t r = 0; r < e->row_count; r++) {
       sbri_row *row = &e->rows[r];
-      row->last_change = row->previous_change + fraction * (row->last_change - row->previous_change);
+      row->change.last = row->change.previous + fraction * (row->change.last - row->change.previous);
     }
   }
 }
@@ -161,9 +162,9 @@ bool sbri_joint_rows_check(const sbri_rigid_tick *t, sbri_rigid_solving *work, s
       bool previous = row->active;
       float speed = row->speed;
       if (!previous && row->kind == SBRI_ROW_LIMIT)
-        sbri_limit_choose_side(row, speed + row->last_change, step_s);
-      row->target_change = row->target - speed;
-      row->active = sbri_limit_acts(row, speed + row->last_change, step_s);
+        sbri_limit_choose_side(row, speed + row->change.last, step_s);
+      row->change.target = row->target - speed;
+      row->active = sbri_limit_acts(row, speed + row->change.last, step_s);
       if (!row->active) row->impulse = 0;
       changed = changed || row->active != previous;
     } else if (row->active && row->max > 0 && fabsf(drive_impulse(row)) > row->max * 1.0001f) {

@@ -54,10 +54,11 @@ static float find_violation(
     const sbri_row *row = &e->rows[r];
     if (row->kind != SBRI_ROW_LIMIT || row->active || row->clearance > reach) continue;
     float now = sbri_joint_coordinate(joint, joint_frames, (sbf_joint_axis)row->axis);
-    if (row->axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_twist(now, row->lower, row->upper);
-    float violation = now < row->lower ? row->lower - now : now - row->upper;
-    float violation_at_begin =
-        row->position < row->lower ? row->lower - row->position : row->position - row->upper;
+    if (row->axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_twist(now, row->limit.lower, row->limit.upper);
+    float violation = now < row->limit.lower ? row->limit.lower - now : now - row->limit.upper;
+    float violation_at_begin = row->limit.position < row->limit.lower
+                                   ? row->limit.lower - row->limit.position
+                                   : row->limit.position - row->limit.upper;
     if (violation > MAX_VIOLATION && violation > violation_at_begin)
       worst = violation > worst ? violation : worst;
   }
@@ -123,9 +124,9 @@ bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *e, const 
   for (uint32_t r = 0; r < e->active_count; r++) {
     const sbri_row *row = &e->rows[e->actives[r]];
     e->rhs[r] = 0;
-    if (!(row->bounce_speed > 0)) continue;
-    e->rhs[r] =
-        (float)row->sign * row->bounce_speed - sbri_row_speed(work, model, &model->joints[e->joint], row);
+    if (!(row->limit.bounce_speed > 0)) continue;
+    e->rhs[r] = (float)row->sign * row->limit.bounce_speed -
+                sbri_row_speed(work, model, &model->joints[e->joint], row);
     any = true;
   }
   return any;

@@ -28,10 +28,10 @@ typedef struct row_maker {
 /* Adds a row without rates. */
 static sbri_row *add_bare_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis axis) {
   sbri_row *row = &m->edge->rows[m->edge->row_count++];
-  row->target = row->compliance = row->max = row->bound = row->bounce_speed = row->impulse =
+  row->target = row->compliance = row->max = row->bound = row->limit.bounce_speed = row->impulse =
       row->attached_mass = 0;
   row->dry_friction = row->max_dry_friction = 0;
-  row->target_change = row->previous_change = row->last_change = row->clearance = row->speed = 0;
+  row->change.target = row->change.previous = row->change.last = row->clearance = row->speed = 0;
   row->sign = 0;
   row->kind = (uint8_t)kind, row->axis = (uint8_t)axis;
   row->active = true, row->is_saturated = false;
@@ -80,10 +80,10 @@ static float min_distance_of(const sbri_row *row, const sbri_joint_frames *joint
                           joint_frames->half_tangent[1] * joint_frames->half_tangent[1]);
   float w = fabsf(joint_frames->rotation.w);
   if (!(swing < CLEAR_SWING && w > CLEAR_TURN)) return -1;
-  if (row->axis == SBF_JOINT_AXIS_SWING) return row->lower > 0 ? -1 : row->upper - swing;
+  if (row->axis == SBF_JOINT_AXIS_SWING) return row->limit.lower > 0 ? -1 : row->limit.upper - swing;
   if (row->axis != SBF_JOINT_AXIS_TWIST) return -1;
   float twist = 2 * fabsf(joint_frames->rotation.x) / w,
-        min = row->upper < -row->lower ? row->upper : -row->lower;
+        min = row->limit.upper < -row->limit.lower ? row->limit.upper : -row->limit.lower;
   return min - twist;
 }
 
@@ -92,7 +92,7 @@ static bool is_clear(const row_maker *m, sbri_row *row) {
   if (!m->edge->ball) return false;
   float clear = min_distance_of(row, m->frames);
   if (!(clear > sbri_max_rotation_change(m->turn_rad_s, m->step_s))) return false;
-  row->clearance = clear, row->position = row->upper - clear;
+  row->clearance = clear, row->limit.position = row->limit.upper - clear;
   row->active = false;
   return true;
 }
@@ -112,16 +112,16 @@ static void add_limit(row_maker *m, const sbf_limit *limit) {
   }
   sbri_row *row = add_bare_row(m, soft ? SBRI_ROW_SPRING : SBRI_ROW_LIMIT, axis);
   bool pressed = m->tick->joints[m->edge->joint].pressed >> ((m->edge->row_count - 1) & 31) & 1;
-  row->lower = min_of(limit), row->upper = limit->max;
+  row->limit.lower = min_of(limit), row->limit.upper = limit->max;
   if (!soft && !pressed && is_clear(m, row)) return;
   float now = sbri_joint_coordinate(m->joint, m->frames, axis);
   if (axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_twist(now, limit->min, limit->max);
-  row->position = now;
+  row->limit.position = now;
   sbri_limit_ready(m->work, m->tick->model, m->edge, m->frames, row, m->step_s);
   if (soft) make_soft(m, row, limit->stiffness, limit->damping, row->bound - now, 0);
   row->active = pressed || sbri_limit_acts(row, row->speed, m->step_s);
   float into = -(float)row->sign * row->speed;
-  if (!soft && row->active && into > BOUNCE_FROM) row->bounce_speed = limit->restitution * into;
+  if (!soft && row->active && into > BOUNCE_FROM) row->limit.bounce_speed = limit->restitution * into;
 }
 
 static void add_drive(row_maker *m, const sbf_drive *drive) {

@@ -33,21 +33,22 @@ float sbri_nearest_twist(float value, float low, float high) {
 }
 
 void sbri_limit_choose_side(sbri_row *row, float speed, float step_s) {
-  float next = row->position + step_s * speed;
-  bool low = next - row->lower < row->upper - next;
+  float next = row->limit.position + step_s * speed;
+  bool low = next - row->limit.lower < row->limit.upper - next;
   row->sign = low ? 1 : -1;
-  row->bound = low ? row->lower : row->upper;
+  row->bound = low ? row->limit.lower : row->limit.upper;
   if (row->kind != SBRI_ROW_LIMIT) return;
   float max = sbri_axis_is_angular((sbf_joint_axis)row->axis) ? SBRI_CORRECTION_RAD_S : SBRI_CORRECTION_M_S;
-  float back = (row->bound - row->position) / step_s;
+  float back = (row->bound - row->limit.position) / step_s;
   row->target = low ? (back > max ? max : back) : (back < -max ? -max : back);
-  row->end = row->position + step_s * row->target;
+  row->end = row->limit.position + step_s * row->target;
 }
 
 bool sbri_limit_acts(const sbri_row *row, float speed, float step_s) {
   float sign = row->sign;
   bool pushes = sign * (row->target - speed) > 0;
-  return pushes && (row->kind == SBRI_ROW_LIMIT || sign * (row->bound - row->position - step_s * speed) > 0);
+  return pushes &&
+         (row->kind == SBRI_ROW_LIMIT || sign * (row->bound - row->limit.position - step_s * speed) > 0);
 }
 
 float sbri_max_rotation_change(float turn_rad_s, float step_s) {

@@ -23,20 +23,20 @@ uint32_t sbri_rigid_external_body_of(const sbri_rigid_tick *t, sbri_rigid_solvin
     int32_t node, const sbri_collider_frame *frame, uint32_t collider) {
   const sbri_collider *leader = sbri_collider_leader(t->colliders, collider);
   if (!leader) return 0;
-  uint32_t number = (uint32_t)(leader - t->colliders->at), i = work->external_body_count;
+  uint32_t number = (uint32_t)(leader - t->colliders->at), i = work->external_list.count;
   while (i > 0 &&
-         (work->external_bodies[i - 1].node != node || work->external_bodies[i - 1].is.leader != number))
+         (work->external_list.at[i - 1].node != node || work->external_list.at[i - 1].is.leader != number))
     i--;
-  if (i > 0 || work->external_body_count == work->external_body_capacity) return i;
+  if (i > 0 || work->external_list.count == work->external_list.capacity) return i;
   const sbri_contact_reports *before = &t->touching[body]; /* not yet reported in this tick */
   sbri_external_body_maker maker = {
       t->colliders, t->origin, t->scale, t->tick_s, before->now, before->before_count};
-  sbri_rigid_external_body *g = &work->external_bodies[work->external_body_count++];
+  sbri_rigid_external_body *g = &work->external_list.at[work->external_list.count++];
   *g = (sbri_rigid_external_body){.is = sbri_external_body_make(&maker, frame, number), .node = node};
   float roots[2][6];
   sbri_external_body_compute_roots(&g->is, leader, roots[0], roots[1]);
   for (int k = 0; k < 2; k++) spread(roots[k], g->roots[k]);
-  return work->external_body_count;
+  return work->external_list.count;
 }
 
 float sbri_rigid_external_body_inverse_mass(const sbri_rigid_external_body *g, sbf_vec3 arm, sbf_vec3 n) {
@@ -44,13 +44,13 @@ float sbri_rigid_external_body_inverse_mass(const sbri_rigid_external_body *g, s
 }
 
 void sbri_rigid_external_bodies_begin(sbri_rigid_solving *work, float step_s) {
-  for (uint32_t i = 0; i < work->external_body_count; i++)
-    sbri_external_body_begin(&work->external_bodies[i].is, step_s);
+  for (uint32_t i = 0; i < work->external_list.count; i++)
+    sbri_external_body_begin(&work->external_list.at[i].is, step_s);
 }
 
 void sbri_rigid_external_bodies_end_step(sbri_rigid_solving *work, float step_s) {
-  for (uint32_t i = 0; i < work->external_body_count; i++)
-    sbri_external_body_end_step(&work->external_bodies[i].is, step_s);
+  for (uint32_t i = 0; i < work->external_list.count; i++)
+    sbri_external_body_end_step(&work->external_list.at[i].is, step_s);
 }
 
 /* ---- System ---- */
@@ -102,16 +102,16 @@ void sbri_rigid_external_body_couple(
 }
 
 void sbri_rigid_external_bodies_clear(sbri_rigid_solving *work) {
-  for (uint32_t i = 0; i < work->external_body_count; i++) {
-    sbri_rigid_external_body *g = &work->external_bodies[i];
+  for (uint32_t i = 0; i < work->external_list.count; i++) {
+    sbri_rigid_external_body *g = &work->external_list.at[i];
     memset(g->d, 0, sizeof g->d), memset(g->c, 0, sizeof g->c), memset(g->b, 0, sizeof g->b);
     for (int k = 0; k < 6; k++) g->d[k][k] = 1;
   }
 }
 
 void sbri_rigid_external_bodies_factor(sbri_rigid_solving *work) {
-  for (uint32_t i = 0; i < work->external_body_count; i++) {
-    sbri_rigid_external_body *g = &work->external_bodies[i];
+  for (uint32_t i = 0; i < work->external_list.count; i++) {
+    sbri_rigid_external_body *g = &work->external_list.at[i];
     sbri_node *node = &work->system.nodes[g->node];
     sbri_sym6_factor(g->d);
     for (int k = 0; k < 6; k++) {
@@ -122,14 +122,14 @@ void sbri_rigid_external_bodies_factor(sbri_rigid_solving *work) {
 }
 
 void sbri_rigid_solve(sbri_rigid_solving *work) {
-  for (uint32_t i = 0; i < work->external_body_count; i++) {
-    sbri_rigid_external_body *g = &work->external_bodies[i];
+  for (uint32_t i = 0; i < work->external_list.count; i++) {
+    sbri_rigid_external_body *g = &work->external_list.at[i];
     sbri_sym6_solve_forward(g->d, g->b);
     for (int k = 0; k < 6; k++) work->system.nodes[g->node].b[k] -= sbri_dot6(g->c[k], g->b);
   }
   sbri_system_solve(&work->system);
-  for (uint32_t i = 0; i < work->external_body_count; i++) {
-    sbri_rigid_external_body *g = &work->external_bodies[i];
+  for (uint32_t i = 0; i < work->external_list.count; i++) {
+    sbri_rigid_external_body *g = &work->external_list.at[i];
     memcpy(g->y, g->b, sizeof g->y);
     for (int k = 0; k < 6; k++) sbri_add6(g->y, g->c[k], -work->system.nodes[g->node].x[k]);
     sbri_sym6_solve_back(g->d, g->y);
@@ -139,20 +139,20 @@ void sbri_rigid_solve(sbri_rigid_solving *work) {
 /* ---- Iterations ---- */
 
 void sbri_rigid_external_bodies_store_solution(sbri_rigid_solving *work) {
-  for (uint32_t i = 0; i < work->external_body_count; i++)
-    memcpy(work->external_bodies[i].was, work->external_bodies[i].y, sizeof work->external_bodies[i].was);
+  for (uint32_t i = 0; i < work->external_list.count; i++)
+    memcpy(work->external_list.at[i].was, work->external_list.at[i].y, sizeof work->external_list.at[i].was);
 }
 
 void sbri_rigid_external_bodies_scale_back(sbri_rigid_solving *work, float fraction) {
-  for (uint32_t i = 0; i < work->external_body_count; i++) {
-    sbri_rigid_external_body *g = &work->external_bodies[i];
+  for (uint32_t i = 0; i < work->external_list.count; i++) {
+    sbri_rigid_external_body *g = &work->external_list.at[i];
     for (int k = 0; k < 6; k++) g->y[k] = g->was[k] + (double)fraction * (g->y[k] - g->was[k]);
   }
 }
 
 void sbri_rigid_external_bodies_compute_slope(const sbri_rigid_solving *work, double *slope, double *rise) {
-  for (uint32_t i = 0; i < work->external_body_count; i++) {
-    const sbri_rigid_external_body *g = &work->external_bodies[i];
+  for (uint32_t i = 0; i < work->external_list.count; i++) {
+    const sbri_rigid_external_body *g = &work->external_list.at[i];
     for (int k = 0; k < 6; k++) {
       double travel = g->y[k] - g->was[k];
       *slope += g->was[k] * travel, *rise += travel * travel;
@@ -169,8 +169,8 @@ static sbf_vec3 moved_by(float roots[3][3], const double y[3], float fraction) {
 }
 
 void sbri_rigid_external_bodies_apply_solution(sbri_rigid_solving *work) {
-  for (uint32_t i = 0; i < work->external_body_count; i++) {
-    sbri_rigid_external_body *g = &work->external_bodies[i];
+  for (uint32_t i = 0; i < work->external_list.count; i++) {
+    sbri_rigid_external_body *g = &work->external_list.at[i];
     float root = sqrtf(g->is.lever);
     sbf_vec3 direction = moved_by(g->roots[0], g->y, 1 / root),
              turn = moved_by(g->roots[1], g->y + 3, 1 / root);
@@ -182,8 +182,8 @@ void sbri_rigid_external_bodies_apply_solution(sbri_rigid_solving *work) {
 }
 
 void sbri_rigid_external_bodies_update_seen(sbri_rigid_solving *work) {
-  for (uint32_t i = 0; i < work->external_body_count; i++) {
-    sbri_external_body *g = &work->external_bodies[i].is;
+  for (uint32_t i = 0; i < work->external_list.count; i++) {
+    sbri_external_body *g = &work->external_list.at[i].is;
     g->seen_velocity = g->velocity, g->seen_angular_velocity = g->angular_velocity, g->lever = 1;
   }
 }

@@ -39,9 +39,10 @@ static void scale_back(sbri_rigid_solving *work, float fraction) {
     for (int k = 0; k < 6; k++)
       node->x[k] = node->previous[k] + (double)fraction * (node->x[k] - node->previous[k]);
   }
-  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
-    sbri_rigid_contact *contact = &work->contacts[i];
-    contact->last_change = sbri_lerp(contact->previous_change, contact->last_change, fraction);
+  for (uint32_t i = 0; i < work->contact_list.count; i++) {
+    sbri_rigid_contact *contact = &work->contact_list.at[i];
+    contact->iteration.last_change =
+        sbri_lerp(contact->iteration.previous_change, contact->iteration.last_change, fraction);
   }
   sbri_rigid_external_bodies_scale_back(work, fraction);
   sbri_joint_rows_scale_back(work, fraction);
@@ -81,7 +82,7 @@ void sbri_rigid_iterate(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
     sbri_rigid_contacts_update_velocities(work);
     sbri_joint_rows_move(work, t->model, step_s);
     bool agree = contacts_agree(t, work), all = agree && sbri_joint_rows_agree(work);
-    if (work->external_body_count && pass + 1 == MAX_PASSES && !all) {
+    if (work->external_list.count && pass + 1 == MAX_PASSES && !all) {
       sbri_rigid_contacts_store_solution(work); /* external bodies must get the impulses that the hulls get */
       return;
     }

@@ -88,10 +88,10 @@ static void add_limits(sbri_rigid_solving *work) {
     const sbri_edge *e = &work->system.edges[i];
     for (uint32_t r = 0; r < e->row_count; r++) {
       const sbri_row *row = &e->rows[r];
-      float travel = row->last_change - row->previous_change, sign = (float)row->sign;
+      float travel = row->change.last - row->change.previous, sign = (float)row->sign;
       if (row->kind != SBRI_ROW_LIMIT || travel == 0) continue;
       work->pushes[work->push_count++] = (sbri_contact_search){.stiff = 1 / (double)row->compliance,
-          .into = (double)(sign * (row->target_change - row->previous_change)),
+          .into = (double)(sign * (row->change.target - row->change.previous)),
           .distance = (double)(sign * travel)};
     }
   }
@@ -117,9 +117,9 @@ static double gravity_energy(const sbri_rigid_tick *t, const sbri_rigid_solving 
   double mass = 0, speed = (double)(sbri_length(t->gravity) * step_s);
   for (uint32_t i = 0; i < work->system.node_count; i++)
     mass += (double)t->model->bodies[work->system.nodes[i].body].mass;
-  for (uint32_t i = 0; i < work->external_body_count;
+  for (uint32_t i = 0; i < work->external_list.count;
        i++) { /* its energy is negligible compared with the bodies' */
-    double light = 1 / (double)work->external_bodies[i].is.max_inverse_mass;
+    double light = 1 / (double)work->external_list.at[i].is.max_inverse_mass;
     mass = light < mass ? light : mass;
   }
   return mass * speed * speed;

@@ -28,14 +28,14 @@ typedef struct shape_pair {
 
 /* Adds a contact of a hull point and a shape point, both in the shape's frame. */
 static void add_contact(const shape_pair *m, sbf_vec3 on_hull, sbf_vec3 on_shape, sbf_vec3 normal) {
-  if (m->work->rigid_contact_count >= m->work->max_contacts) return;
+  if (m->work->contact_list.count >= m->work->contact_list.capacity) return;
   const sbri_collider *c = m->frame.collider;
   sbf_vec3 own = sbri_sub(sbri_out_of_shape(&m->frame, on_hull), m->pose.position);
   sbf_vec3 n = sbri_rotate(c->rotation_from, normal), position = sbri_out_of_shape(&m->frame, on_shape);
   uint32_t external_body =
       sbri_rigid_external_body_of(m->tick, m->work, m->number, m->node, &m->frame, m->collider);
-  sbf_vec3 centre = external_body ? m->work->external_bodies[external_body - 1].is.centre : position;
-  m->work->contacts[m->work->rigid_contact_count++] = (sbri_rigid_contact){.node = m->node,
+  sbf_vec3 centre = external_body ? m->work->external_list.at[external_body - 1].is.centre : position;
+  m->work->contact_list.at[m->work->contact_list.count++] = (sbri_rigid_contact){.node = m->node,
       .body = m->number,
       .at = sbri_rotate(sbri_quat_conjugate(m->pose.rotation), own),
       .normal = n,
@@ -153,9 +153,9 @@ static void collide_triangles(const shape_pair *m) {
   while (count < MAX_TRIANGLES && sbri_bounds_walk_next(&walk, &item)) {
     const uint32_t *c = t->corners + 3 * (size_t)item;
     const sbf_vec3 at[3] = {t->points[c[0]], t->points[c[1]], t->points[c[2]]};
-    uint32_t before = m->work->rigid_contact_count;
+    uint32_t before = m->work->contact_list.count;
     collide_triangle(m, at);
-    count += m->work->rigid_contact_count > before;
+    count += m->work->contact_list.count > before;
   }
 }
 
@@ -181,7 +181,7 @@ static void sweep_triangle(const shape_pair *m, sbf_vec3 direction) {
 }
 
 static void collide(const shape_pair *m, sbf_vec3 direction) {
-  uint32_t before = m->work->rigid_contact_count;
+  uint32_t before = m->work->contact_list.count;
   const sbr_shape *shape = m->frame.collider->shape;
   switch (shape->kind) {
   case SBR_SHAPE_SPHERE:
@@ -205,7 +205,7 @@ static void collide(const shape_pair *m, sbf_vec3 direction) {
     if (sbri_collide_hulls(&m->hull, &other, m->reach, &pair)) add_pair(m, &pair);
   }
   }
-  if (m->work->rigid_contact_count == before && sbri_length(direction) > 0.5f * m->radius)
+  if (m->work->contact_list.count == before && sbri_length(direction) > 0.5f * m->radius)
     sweep_triangle(m, direction);
 }
 
@@ -251,7 +251,7 @@ static void collide_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uin
 }
 
 void sbri_rigid_shape_contacts_find(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  work->external_body_count = 0;
+  work->external_list.count = 0;
   if (!t->colliders || !t->colliders->tree.node_count) return;
   for (uint32_t i = 0; i < work->system.node_count; i++)
     collide_body(t, work, work->system.nodes[i].body, (int32_t)i);

@@ -63,9 +63,9 @@ static void add_pair(const stairs *s, sbri_rigid_solving *work, uint32_t b, int3
     const sbri_hull_pair *pair) {
   const sbri_rigid_body *body = &s->tick->model->bodies[b];
   const sbr_transform *pose = &s->tick->bodies[b].pose;
-  for (uint32_t i = 0; i < pair->count && work->rigid_contact_count < work->max_contacts; i++) {
+  for (uint32_t i = 0; i < pair->count && work->contact_list.count < work->contact_list.capacity; i++) {
     sbf_vec3 own = sbri_sub(pair->on_a[i], pose->position);
-    work->contacts[work->rigid_contact_count++] = (sbri_rigid_contact){.node = node,
+    work->contact_list.at[work->contact_list.count++] = (sbri_rigid_contact){.node = node,
         .body = b,
         .at = sbri_rotate(sbri_quat_conjugate(pose->rotation), own),
         .normal = pair->normal,
@@ -108,8 +108,8 @@ bool sbri_rigid_stair_contacts_find(
   float max = 0.5f * body->radius, reach = swing + (travel < max ? travel : max);
   int64_t first = step_at(&s, x.z - body->radius - reach), last = step_at(&s, x.z + body->radius + reach);
   if (last - first >= MAX_STEPS) return false;
-  uint32_t before = work->rigid_contact_count;
+  uint32_t before = work->contact_list.count;
   for (int64_t step = first; step <= last; step++) collide_step(&s, work, b, node, step, reach);
-  return work->rigid_contact_count > before ||
+  return work->contact_list.count > before ||
          travel <= max; /* fast bodies might pass through before they are near */
 }

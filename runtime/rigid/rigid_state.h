@@ -43,6 +43,45 @@ typedef struct sbri_rigid_drive_state {
   float limp_fraction, rest_s, rise_s; /* of sbr_fall_definition */
 } sbri_rigid_drive_state;
 
+/* What a contact keeps from the previous step. */
+typedef struct sbri_rigid_contact_history {
+  bool is_known;           /* the contact existed in the previous step */
+  uint32_t idle_ticks;     /* ticks for which it has not pressed */
+  float normal_n;          /* normal force, N; 0: inactive */
+  sbf_vec3 friction_n;     /* sliding friction, N */
+  sbf_vec3 velocity_error; /* part of the target velocity change that was not reached, m/s: minus the sliding
+                              velocity */
+} sbri_rigid_contact_history;
+
+/* Geometry, target and effective masses of a contact in a substep. */
+typedef struct sbri_rigid_contact_substep {
+  sbf_vec3 arm;
+  sbf_vec3 target;       /* target velocity change of the contact point */
+  float gap;             /* m */
+  float bounce_m_s;      /* bounce speed; 0: none */
+  float closing_speed;   /* m/s at the beginning of the substep; for events */
+  float inverse_mass;    /* inverse effective mass along the normal, body alone, 1/kg */
+  float normal_mass;     /* effective mass along the normal, kg */
+  float tangential_mass; /* effective mass in tangential directions while it sticks, kg */
+} sbri_rigid_contact_substep;
+
+/* Friction of a contact in a substep. */
+typedef struct sbri_rigid_contact_friction {
+  sbf_vec3 sticking_impulse; /* friction impulse of the previous step, about which sticking yields */
+  sbf_vec3 impulse;          /* sliding friction impulse; and perpendicular to it and the normal: */
+  sbf_vec3 side_direction;   /* unit vector along which friction changes with the sliding direction */
+  float side_mass;           /* friction impulse over sliding speed, kg */
+  float bound;               /* bound of the friction impulse, N s */
+  float tolerance;           /* tolerance of the friction impulse, N s */
+} sbri_rigid_contact_friction;
+
+/* State of a contact during the iterations of a solve. */
+typedef struct sbri_rigid_contact_iteration {
+  sbf_vec3 previous_change, last_change; /* velocity change by the previous iteration, and by the last */
+  bool is_active, slides;
+  sbf_vec3 extra_impulse; /* impulse in addition to the iterations, N s */
+} sbri_rigid_contact_iteration;
+
 /* Possible contact of a hull point with the ground or a shape within the tick. */
 typedef struct sbri_rigid_contact {
   int32_t node;
@@ -58,31 +97,10 @@ typedef struct sbri_rigid_contact {
   uint32_t external_body;     /* 1-based index of the external body that receives the impulse
                                  (rigid_external_bodies.h); 0: none */
   sbf_vec3 external_body_arm; /* lever arm from the external body's centre of mass, m */
-  /* From the previous step, if `known`: */
-  bool has_history;
-  uint32_t idle_ticks;     /* ticks for which it has not pressed */
-  float normal_n;          /* normal force, N; 0: inactive */
-  sbf_vec3 friction_n;     /* sliding friction, N */
-  sbf_vec3 velocity_error; /* part of the target velocity change that was not reached, m/s: minus the sliding
-                              velocity */
-  /* Within a substep: */
-  sbf_vec3 arm;
-  sbf_vec3 target;     /* target velocity change of the contact point */
-  float gap;           /* m */
-  float bounce_m_s;    /* bounce speed; 0: none */
-  float closing_speed; /* m/s at the beginning of the substep; for events */
-  float inverse_mass;  /* inverse effective mass along the normal, body alone, 1/kg */
-  float normal_mass,
-      tangential_mass;       /* effective mass along the normal, and tangential while it sticks, kg */
-  sbf_vec3 sticking_impulse; /* friction impulse of the previous step, about which sticking yields */
-  sbf_vec3 sliding_impulse;  /* sliding friction impulse; and perpendicular to it and the normal: */
-  sbf_vec3 side_direction;   /* unit vector along which friction changes with the sliding direction */
-  float side_mass;           /* friction impulse over sliding speed, kg */
-  float bound;               /* bound of the friction impulse, N s */
-  float tolerance;           /* tolerance of the friction impulse, N s */
-  sbf_vec3 previous_change, last_change; /* velocity change by the previous iteration, and by the last */
-  bool active, slides;
-  sbf_vec3 extra_impulse; /* impulse in addition to the iterations, N s */
+  sbri_rigid_contact_history history;
+  sbri_rigid_contact_substep substep;
+  sbri_rigid_contact_friction sliding;
+  sbri_rigid_contact_iteration iteration;
 } sbri_rigid_contact;
 
 /* Part of a contact that is stored for the next tick. */

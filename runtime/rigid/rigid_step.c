@@ -65,20 +65,20 @@ static size_t assign_arrays(const sbri_rigid_model *m, unsigned char *memory, sb
   work->balls = carve(&at, joints + 1, sizeof *work->balls);
   work->pairs = carve(&at, joints + 1, sizeof *work->pairs);
   work->joint_frames = carve(&at, joints + 1, sizeof *work->joint_frames);
-  work->max_contacts = sbri_rigid_contact_capacity(m);
-  work->contacts = carve(&at, work->max_contacts, sizeof *work->contacts);
-  work->external_body_capacity = (uint32_t)(EXTERNAL_BODIES + EXTERNAL_BODIES_OF_BODY * bodies);
-  work->external_bodies = carve(&at, work->external_body_capacity, sizeof *work->external_bodies);
-  work->pushes = carve(&at, work->max_contacts + rows, sizeof *work->pushes);
+  work->contact_list.capacity = sbri_rigid_contact_capacity(m);
+  work->contact_list.at = carve(&at, work->contact_list.capacity, sizeof *work->contact_list.at);
+  work->external_list.capacity = (uint32_t)(EXTERNAL_BODIES + EXTERNAL_BODIES_OF_BODY * bodies);
+  work->external_list.at = carve(&at, work->external_list.capacity, sizeof *work->external_list.at);
+  work->pushes = carve(&at, work->contact_list.capacity + rows, sizeof *work->pushes);
   work->order = carve(&at, 2 * joints + 2, sizeof(uint32_t));
   work->roots = carve(&at, bodies + 1, sizeof(uint32_t));
   work->rows = carve(&at, rows, sizeof *work->rows);
   work->actives = carve(&at, rows, sizeof *work->actives);
-  work->y = carve(&at, 6 * rows, sizeof(double));
-  work->w = carve(&at, 6 * rows, sizeof(double));
-  work->t = carve(&at, rows, sizeof(double));
-  work->rhs = carve(&at, rows, sizeof(double));
-  work->g = carve(&at, m->square_count, sizeof(double));
+  work->vectors.y = carve(&at, 6 * rows, sizeof(double));
+  work->vectors.w = carve(&at, 6 * rows, sizeof(double));
+  work->vectors.t = carve(&at, rows, sizeof(double));
+  work->vectors.rhs = carve(&at, rows, sizeof(double));
+  work->vectors.g = carve(&at, m->square_count, sizeof(double));
   return (size_t)(at - memory);
 }
 
@@ -99,9 +99,9 @@ static void assign_edge_arrays(const sbri_rigid_model *m, sbri_rigid_solving *wo
     size_t row = joint->first_row;
     e->rows = work->rows + row;
     e->actives = work->actives + row;
-    e->y = work->y + 6 * row, e->w = work->w + 6 * row;
-    e->t = work->t + row, e->rhs = work->rhs + row;
-    e->g = work->g + joint->first_square;
+    e->y = work->vectors.y + 6 * row, e->w = work->vectors.w + 6 * row;
+    e->t = work->vectors.t + row, e->rhs = work->vectors.rhs + row;
+    e->g = work->vectors.g + joint->first_square;
   }
 }
 
@@ -222,8 +222,8 @@ static void apply_and_advance(const sbri_rigid_tick *t, sbri_rigid_solving *work
 static void clear_b(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++)
     memset(work->system.nodes[i].b, 0, sizeof work->system.nodes[i].b);
-  for (uint32_t i = 0; i < work->external_body_count; i++)
-    memset(work->external_bodies[i].b, 0, sizeof work->external_bodies[i].b);
+  for (uint32_t i = 0; i < work->external_list.count; i++)
+    memset(work->external_list.at[i].b, 0, sizeof work->external_list.at[i].b);
 }
 
 /* Impulse of an edge on body b in the step, and its moment about the joint's point on b. */
@@ -246,7 +246,7 @@ static sbf_vec3 impulse_of(const sbri_rigid_solving *work, const sbri_edge *e, s
 
 /* Stores joint forces. Returns whether they make a body oscillate too fast for the step size. */
 static bool is_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
-  if (work->rigid_contact_count) return false; /* impact forces last for one step only */
+  if (work->contact_list.count) return false; /* impact forces last for one step only */
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
@@ -270,7 +270,7 @@ static void store_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *wor
 }
 
 static void apply_restitution(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  if (work->external_body_count) {
+  if (work->external_list.count) {
     sbri_rigid_external_bodies_update_seen(work);
     sbri_rigid_factor(t, work);
   }
@@ -325,7 +325,7 @@ static void store_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int
 
 /* A step; if the joints do not hold at its end, as when a whip cracks, two steps of half the length. */
 static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to, int depth) {
-  int max = work->rigid_contact_count ? CONTACT_HALVINGS : SBRI_RIGID_HALVINGS;
+  int max = work->contact_list.count ? CONTACT_HALVINGS : SBRI_RIGID_HALVINGS;
   store_bodies(t, work, depth, false);
   if (!step(t, work, from, to) && depth + 1 < max) {
     store_bodies(t, work, depth, true);

@@ -55,7 +55,7 @@ static void find_force_stiffness(
 
 /* Whether no contact, joint to the world or drive acts; gravity causes no joint forces. */
 static bool is_flying(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
-  if (work->rigid_contact_count || work->system.loop_count) return false;
+  if (work->contact_list.count || work->system.loop_count) return false;
   for (uint32_t e = 0; e < work->system.edge_count; e++)
     if (t->model->joints[work->system.edges[e].joint].source->kind == SBF_JOINT_KIND_PULLEY) return false;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
@@ -146,7 +146,7 @@ uint32_t sbri_rigid_step_count(const sbri_rigid_tick *t, sbri_rigid_solving *wor
   while ((float)count < steps && 2 * count <= max) count *= 2;
   uint32_t old_steps = t->drive->substeps;
   bool nearly =
-      is_flying_now || work->rigid_contact_count ? steps > NEARLY * (float)count : old_steps < 4 * count;
+      is_flying_now || work->contact_list.count ? steps > NEARLY * (float)count : old_steps < 4 * count;
   if (!is_resting && is_flying_now == flew && old_steps > count && old_steps <= max && nearly)
     count = old_steps;
   t->drive->substeps = count;

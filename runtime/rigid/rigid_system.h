@@ -27,6 +27,20 @@ typedef enum sbri_row_kind {
   SBRI_ROW_TRACK   /* towards an angle of the animated pose, likewise */
 } sbri_row_kind;
 
+/* Limit of a row's coordinate. */
+typedef struct sbri_row_limit {
+  float position;     /* the coordinate when the substep begins */
+  float lower, upper; /* range */
+  float bounce_speed; /* of a limit that was reached: speed of the rebound; else 0 */
+} sbri_row_limit;
+
+/* Changes of a limit's rate during the iterations of a solve. */
+typedef struct sbri_row_change {
+  float target;   /* wanted change */
+  float previous; /* by the previous iteration */
+  float last;     /* by the last iteration */
+} sbri_row_change;
+
 typedef struct sbri_row {
   float rates[SBRI_SIDES][6]; /* of the two bodies */
   float target;               /* c, of the velocities at the substep's end */
@@ -37,18 +51,15 @@ typedef struct sbri_row {
   float max_dry_friction;     /* and its maximum, N m s */
   float bound;                /* of a locked or limited coordinate */
   float end;                  /* target of a locked or limited coordinate at the substep's end */
-  float position, lower, upper; /* of a limit: the coordinate when the substep begins, and its range */
-  float bounce_speed;           /* of a limit that was reached: speed of the rebound; else 0 */
-  float impulse;                /* l */
-  float speed;                  /* of the coordinate, from the velocities at the beginning of the step */
+  sbri_row_limit limit;
+  float impulse;   /* l */
+  float speed;     /* of the coordinate, from the velocities at the beginning of the step */
   float clearance; /* of an inactive limit: distance of the coordinate, rad; it has no rates yet; else 0 */
-  float target_change; /* of a limit: change of its rate that is asked of the bodies' velocities */
-  float previous_change,
-      last_change;    /* of a limit: change of its rate by the previous iteration and the last */
-  int8_t sign;        /* of a limit: the only sign that its impulse may have */
-  uint8_t kind, axis; /* of sbri_row_kind and sbf_joint_axis */
-  bool active;        /* part of the system */
-  bool is_saturated;  /* of a drive: its impulse is the maximum, which the velocities contain already */
+  sbri_row_change change; /* of a limit */
+  int8_t sign;            /* of a limit: the only sign that its impulse may have */
+  uint8_t kind, axis;     /* of sbri_row_kind and sbf_joint_axis */
+  bool active;            /* part of the system */
+  bool is_saturated;      /* of a drive: its impulse is the maximum, which the velocities contain already */
 } sbri_row;
 
 /* What a joint that holds a place and no turn has instead of rows for that; see ball_edge.h. */

@@ -40,10 +40,14 @@ typedef struct sbri_rigid_solving {
   sbri_ball *balls;            /* (joint_count) likewise: of the edges */
   sbri_ball_pair *pairs;       /* (joint_count) of those of the tree */
   sbri_joint_frames *joint_frames; /* (joint_count) of the edges */
-  sbri_rigid_contact *contacts;    /* (rigid_contact_count) */
-  uint32_t rigid_contact_count, max_contacts;
-  sbri_rigid_external_body *external_bodies; /* (external_body_count) of the host's bodies that have a mass */
-  uint32_t external_body_count, external_body_capacity;
+  struct {
+    sbri_rigid_contact *at;
+    uint32_t count, capacity;
+  } contact_list;
+  struct {
+    sbri_rigid_external_body *at;
+    uint32_t count, capacity;
+  } external_list;             /* of the host, with a mass */
   sbri_contact_search *pushes; /* (max_contacts + row_count) of the line search */
   uint32_t push_count;
   float swings;      /* (rad/s)^2, by what pulled in the tick before: sbri_rigid_swings */
@@ -52,7 +56,9 @@ typedef struct sbri_rigid_solving {
   uint32_t *order, *roots; /* of the tree's making */
   sbri_row *rows;          /* (row_count), as all that follow: the edges' share them out by joint */
   uint16_t *actives;
-  double *y, *w, *t, *rhs, *g;
+  struct {
+    double *y, *w, *t, *rhs, *g;
+  } vectors; /* of the linear system */
 } sbri_rigid_solving;
 
 /* ---- rigid_step.c ---- */
@@ -77,7 +83,7 @@ bool sbri_rigid_is_slow(const sbri_rigid_tick *tick, const sbri_rigid_solving *w
 /* Whether joints predict the arcs of rotating bodies: in flight, and near objects that may stop them within a
  * step. Otherwise, as for a whip under tension, they use tangents, and the error controls the step size. */
 static inline bool sbri_rigid_predicts_arcs(const sbri_rigid_tick *tick, const sbri_rigid_solving *work) {
-  return tick->drive->is_free || work->rigid_contact_count > 0;
+  return tick->drive->is_free || work->contact_list.count > 0;
 }
 
 /* ---- rigid_passes.c: solves for the nodes' x and the active rows and contacts of a step. ---- */

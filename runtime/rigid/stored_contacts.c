@@ -18,17 +18,17 @@ static bool is_same(const sbri_stored_contact *stored, const sbri_rigid_contact 
 }
 
 static void restore(const sbri_stored_contact *stored, sbri_rigid_contact *contact) {
-  contact->has_history = true;
-  contact->idle_ticks = stored->idle_ticks;
-  contact->normal_n = stored->normal_n, contact->friction_n = stored->friction_n;
-  contact->velocity_error = stored->velocity_error;
+  contact->history.is_known = true;
+  contact->history.idle_ticks = stored->idle_ticks;
+  contact->history.normal_n = stored->normal_n, contact->history.friction_n = stored->friction_n;
+  contact->history.velocity_error = stored->velocity_error;
 }
 
 /* A newly found contact of the pair whose normal is similar to that of the lost one; NULL: none. */
 static const sbri_rigid_contact *find_similar(
     const sbri_rigid_solving *work, const sbri_stored_contact *stored) {
-  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
-    const sbri_rigid_contact *contact = &work->contacts[i];
+  for (uint32_t i = 0; i < work->contact_list.count; i++) {
+    const sbri_rigid_contact *contact = &work->contact_list.at[i];
     if (contact->body == stored->body && contact->surface == stored->surface &&
         sbri_dot(contact->normal, stored->normal) > FACING &&
         sbri_dot(contact->velocity, contact->velocity) == 0)
@@ -41,25 +41,25 @@ static const sbri_rigid_contact *find_similar(
  * that is not found in this tick persists while the body is near it. */
 static void store_contact(
     const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_stored_contact *stored) {
-  if (stored->idle_ticks > IDLE_TICKS || work->rigid_contact_count >= work->max_contacts) return;
+  if (stored->idle_ticks > IDLE_TICKS || work->contact_list.count >= work->contact_list.capacity) return;
   const sbri_rigid_contact *similar = find_similar(work, stored);
   if (!similar) return;
   const sbri_rigid_body_state *s = &t->bodies[stored->body];
   sbf_vec3 x = sbri_add(s->pose.position, sbri_rotate(s->pose.rotation, stored->at));
   float gap = sbri_dot(stored->normal, x) - stored->offset;
   if (fabsf(gap) > NEAR_FRACTION * t->model->bodies[stored->body].radius) return;
-  sbri_rigid_contact *contact = &work->contacts[work->rigid_contact_count++];
+  sbri_rigid_contact *contact = &work->contact_list.at[work->contact_list.count++];
   *contact = *similar;
   contact->at = stored->at, contact->normal = stored->normal, contact->offset = stored->offset;
   if (contact->external_body)
-    contact->external_body_arm = sbri_sub(x, work->external_bodies[contact->external_body - 1].is.centre);
+    contact->external_body_arm = sbri_sub(x, work->external_list.at[contact->external_body - 1].is.centre);
   restore(stored, contact);
 }
 
 void sbri_stored_contacts_apply(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   uint32_t count = t->drive->stored_contacts, begin = 0;
-  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
-    sbri_rigid_contact *contact = &work->contacts[i];
+  for (uint32_t i = 0; i < work->contact_list.count; i++) {
+    sbri_rigid_contact *contact = &work->contact_list.at[i];
     float max = SAME_FRACTION * t->model->bodies[contact->body].radius;
     if (contact->surface == UINT32_MAX) max = 0; /* ground contacts are vertices */
     for (uint32_t k = 0; k < count; k++) {       /* usually the one after the last match */
@@ -77,18 +77,18 @@ void sbri_stored_contacts_apply(const sbri_rigid_tick *t, sbri_rigid_solving *wo
 
 void sbri_stored_contacts_save(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   uint32_t count = 0;
-  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
-    const sbri_rigid_contact *contact = &work->contacts[i];
-    if (!contact->has_history) continue;
+  for (uint32_t i = 0; i < work->contact_list.count; i++) {
+    const sbri_rigid_contact *contact = &work->contact_list.at[i];
+    if (!contact->history.is_known) continue;
     t->kept[count++] = (sbri_stored_contact){.body = contact->body,
         .surface = contact->surface,
         .at = contact->at,
-        .friction_n = contact->friction_n,
-        .velocity_error = contact->velocity_error,
-        .idle_ticks = contact->normal_n > 0 ? 0 : contact->idle_ticks + 1,
+        .friction_n = contact->history.friction_n,
+        .velocity_error = contact->history.velocity_error,
+        .idle_ticks = contact->history.normal_n > 0 ? 0 : contact->history.idle_ticks + 1,
         .normal = contact->normal,
         .offset = contact->offset,
-        .normal_n = contact->normal_n};
+        .normal_n = contact->history.normal_n};
   }
   SBF_ASSERT(count <= sbri_rigid_contact_capacity(t->model));
   t->drive->stored_contacts = count;

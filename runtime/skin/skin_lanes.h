@@ -58,8 +58,8 @@ static inline void sbri_lanes_compute_tangents(
   for (uint32_t block = 0; block < skin->face_block_count; block++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_diagonals d = sbri_face_diagonals(&skin->faces[block], vertices, lane);
-      sbri_wide a = sbri_wide_load(skin->tangent_blocks[block].fractions[0] + lane);
-      sbri_wide b = sbri_wide_load(skin->tangent_blocks[block].fractions[1] + lane);
+      sbri_wide a = sbri_wide_load(skin->tangents.blocks[block].fractions[0] + lane);
+      sbri_wide b = sbri_wide_load(skin->tangents.blocks[block].fractions[1] + lane);
       sbri_wide3 t = {a * d.a.x + b * d.b.x, a * d.a.y + b * d.b.y, a * d.a.z + b * d.b.z};
       sbri_wide_store_points(faces + block * SBRI_BLOCK + lane, t);
     }

@@ -32,7 +32,7 @@ static void measure_skins(const sbr_model *model, extents *e) {
     const sbri_skin *skin = &model->skins.at[i];
     e->vertices = larger(e->vertices, skin->vertex_count);
     e->faces = larger(e->faces, skin->face_block_count);
-    e->groups = larger(e->groups, larger(skin->split.group_count, skin->smooth.group_count));
+    e->groups = larger(e->groups, larger(skin->normals.split.group_count, skin->normals.smooth.group_count));
   }
 }
 

@@ -232,22 +232,22 @@ class Tables:
         if f.range:
             low, low_open, high, high_open = f.range
             number = lambda v: ("-" if v < 0 else "") + "INFINITY" if abs(v) == float("inf") else repr(v)
-            row.append(f".has_range = true, .min = {number(low)}, .max = {number(high)}, "
-                       f".min_open = {str(low_open).lower()}, .max_open = {str(high_open).lower()}")
+            row.append(f".range.is_stated = true, .range.min = {number(low)}, .range.max = {number(high)}, "
+                       f".range.min_open = {str(low_open).lower()}, .range.max_open = {str(high_open).lower()}")
         row += self.defaults(f)
         if f.type == "enum":
-            row.append(f".values = {f.argument}_values, .value_count = {len(schema.enums[f.argument])}")
+            row.append(f".words.at = {f.argument}_values, .words.count = {len(schema.enums[f.argument])}")
         if f.type == "ref":
-            row.append(f".target = offsetof(sbf_asset, {f.argument}), .target_name = {c_string(f.argument)}")
+            row.append(f".reference.offset = offsetof(sbf_asset, {f.argument}), .reference.name = {c_string(f.argument)}")
         if f.is_child:
             child = schema.elements[f.argument]
-            row.append(f".element = &{self.table(child)}, .xml = {c_string(f.xml or child.xml)}")
-            row += [f".{key} = {c_string(getattr(f, key))}" for key in ("wrapper", "suffix", "by")
+            row.append(f".element = &{self.table(child)}, .tag.xml = {c_string(f.xml or child.xml)}")
+            row += [f".tag.{key} = {c_string(getattr(f, key))}" for key in ("wrapper", "suffix", "by")
                     if getattr(f, key)]
             if f.fix:
                 name, value = f.fix.split(":")
                 place = schema.enums[child.field(name).argument].index(value)
-                row.append(f".fixed_name = {c_string(name)}, .fixed_value = {place}")
+                row.append(f".fixed.name = {c_string(name)}, .fixed.value = {place}")
         if f.lengths:
             row.append(f".length_count = {len(f.lengths)}, .lengths = {element.name}_{f.name}_lengths")
         if f.index:
@@ -256,18 +256,18 @@ class Tables:
 
     def defaults(self, f):
         if f.type == "quat":
-            return [".defaults = {0, 0, 0, 1}"]
+            return [".initial.scalars = {0, 0, 0, 1}"]
         if f.default is None:
-            return ['.default_text = ""'] if f.type in ("string", "text", "id") else []
+            return ['.initial.text = ""'] if f.type in ("string", "text", "id") else []
         if f.type in WIDTH:
-            return [".defaults = {" + ", ".join(f"{float(v)!r}f" for v in f.default.split(",")) + "}"]
+            return [".initial.scalars = {" + ", ".join(f"{float(v)!r}f" for v in f.default.split(",")) + "}"]
         if f.type == "bool":
-            return [f".default_integer = {int(f.default == 'true')}"]
+            return [f".initial.integer = {int(f.default == 'true')}"]
         if f.type == "enum":
-            return [f".default_integer = {self.schema.enums[f.argument].index(f.default)}"]
+            return [f".initial.integer = {self.schema.enums[f.argument].index(f.default)}"]
         if f.type in ("int", "uint"):
-            return [f".default_integer = {f.default}u"]
-        return [f".default_text = {c_string(f.default)}"]
+            return [f".initial.integer = {f.default}u"]
+        return [f".initial.text = {c_string(f.default)}"]
 
 
 def tables(schema):

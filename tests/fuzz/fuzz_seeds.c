@@ -127,15 +127,16 @@ static void put_stream(const char *folder) {
 static void put_words_of(const sbfi_element *element, FILE *to) {
   for (uint32_t i = 0; i < element->field_count; i++) {
     const sbfi_field *field = &element->fields[i];
-    if (field->wrapper) fprintf(to, "\"<%s>\"\n\"</%s>\"\n", field->wrapper, field->wrapper);
+    if (field->tag.wrapper) fprintf(to, "\"<%s>\"\n\"</%s>\"\n", field->tag.wrapper, field->tag.wrapper);
     if (field->type == SBFI_LIST || field->type == SBFI_TEXT)
       fprintf(to, "\"<%s>1 2 3</%s>\"\n", field->name, field->name);
     else if (field->type < SBFI_ONE)
       fprintf(to, "\" %s=\\\"1\\\"\"\n", field->name);
-    for (uint32_t v = 0; v < field->value_count; v++)
-      fprintf(to, "\" %s=\\\"%s\\\"\"\n", field->name, field->values[v]);
+    for (uint32_t v = 0; v < field->words.count; v++)
+      fprintf(to, "\" %s=\\\"%s\\\"\"\n", field->name, field->words.at[v]);
     if (!field->element) continue;
-    if (field->xml && !field->suffix) fprintf(to, "\"<%s\"\n\"</%s>\"\n", field->xml, field->xml);
+    if (field->tag.xml && !field->tag.suffix)
+      fprintf(to, "\"<%s\"\n\"</%s>\"\n", field->tag.xml, field->tag.xml);
     put_words_of(field->element, to); /* no element is inside itself */
   }
 }

@@ -183,9 +183,9 @@ sbfi_scene_mesh *scene_box(
       .polygon_starts = starts,
       .polygon_materials = materials,
       .corner_points = corners,
-      .normal_count = 6,
-      .normals = normals,
-      .corner_normals = corner_normals,
+      .normals.count = 6,
+      .normals.at = normals,
+      .normals.corner_index = corner_normals,
       .uv_set_count = 1,
       .uv_sets = set};
   return mesh;
@@ -208,11 +208,11 @@ void scene_skin(sbfi_scene *scene, sbfi_scene_mesh *mesh, uint32_t joint_count, 
     indices[i] = joint_of_point[i];
     weights[i] = 1;
   }
-  mesh->joint_count = joint_count;
-  mesh->joints = made;
-  mesh->skin_starts = starts;
-  mesh->skin_joints = indices;
-  mesh->skin_weights = weights;
+  mesh->skin.joint_count = joint_count;
+  mesh->skin.joints = made;
+  mesh->skin.starts = starts;
+  mesh->skin.joint_index = indices;
+  mesh->skin.weights = weights;
 }
 
 sbfi_scene_channel *scene_clip(sbfi_scene *scene, const char *name, float duration_s, uint32_t count) {

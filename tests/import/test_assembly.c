@@ -200,11 +200,11 @@ START_TEST(points_that_move_differently_stay_apart)
   ck_assert_uint_eq(m->point_count, 5);
   ck_assert_uint_eq(m->vertex_points[2], m->vertex_points[4]);
   ck_assert_uint_ne(m->vertex_points[0], m->vertex_points[3]);
-  ck_assert_uint_eq(m->joint_count, 2);
-  ck_assert_int_eq(m->joints[0].node, 2);
-  ck_assert_uint_eq(m->skin_starts[1] - m->skin_starts[0], 1);
-  ck_assert_uint_eq(m->skin_starts[2] - m->skin_starts[1], 0); /* its only weight is 0 */
-  ck_assert_uint_eq(m->skin_starts[3] - m->skin_starts[2], 2);
+  ck_assert_uint_eq(m->skin.joint_count, 2);
+  ck_assert_int_eq(m->skin.joints[0].node, 2);
+  ck_assert_uint_eq(m->skin.starts[1] - m->skin.starts[0], 1);
+  ck_assert_uint_eq(m->skin.starts[2] - m->skin.starts[1], 0); /* its only weight is 0 */
+  ck_assert_uint_eq(m->skin.starts[3] - m->skin.starts[2], 2);
   ck_assert_uint_eq(sbfi_scene_bone_count(&scene), 2);
   ck_assert_uint_eq(scene.warning_count, 1); /* no node is named nobody: it is a group of the points */
   ck_assert_uint_eq(m->group_count, 1);
@@ -282,7 +282,7 @@ START_TEST(a_name_means_the_bone)
   stream_end(&s);
   sbfi_scene scene;
   scene_of_stream(&scene, &s, "glb");
-  ck_assert_int_eq(scene.meshes[0].joints[0].node, 1);
+  ck_assert_int_eq(scene.meshes[0].skin.joints[0].node, 1);
   ck_assert_int_eq(scene.clips[0].channels[0].node, 1);
   ck_assert_uint_eq(scene.warning_count, 1); /* of the two without a mesh it could be either */
   ck_assert_int_eq(scene.warnings[0].code, SBF_CODE_IMPORT_NAME_AMBIGUOUS);

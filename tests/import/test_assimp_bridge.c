@@ -223,7 +223,7 @@ START_TEST(the_lizard_is_in_metres)
   for (uint32_t i = 0; i < scene.mesh_count; i++) {
     const sbfi_scene_mesh *m = &scene.meshes[i];
     const double(*w)[4] = scene.nodes[m->node].world.at;
-    for (uint32_t p = 0; p < m->point_count && !m->joint_count; p++)
+    for (uint32_t p = 0; p < m->point_count && !m->skin.joint_count; p++)
       for (int k = 0; k < 3; k++) {
         sbf_vec3 at = m->points[p];
         double v = (w[k][0] * at.x + w[k][1] * at.y + w[k][2] * at.z + w[k][3]) * scene.unit_m;
@@ -248,12 +248,12 @@ START_TEST(joints_are_never_sections)
   if (!read_shared(&scene, "lizard/lizart.glb")) return;
   const sbfi_scene_mesh *skin = NULL;
   for (uint32_t i = 0; i < scene.mesh_count; i++)
-    if (scene.meshes[i].joint_count) skin = &scene.meshes[i];
+    if (scene.meshes[i].skin.joint_count) skin = &scene.meshes[i];
   ck_assert_ptr_nonnull(skin);
-  ck_assert_uint_eq(skin->joint_count, 20);
-  for (uint32_t j = 0; j < skin->joint_count; j++)
+  ck_assert_uint_eq(skin->skin.joint_count, 20);
+  for (uint32_t j = 0; j < skin->skin.joint_count; j++)
     for (uint32_t i = 0; i < scene.mesh_count; i++)
-      ck_assert_int_ne(skin->joints[j].node, scene.meshes[i].node);
+      ck_assert_int_ne(skin->skin.joints[j].node, scene.meshes[i].node);
   sbfi_scene_free(&scene);
 }
 END_TEST
@@ -312,8 +312,9 @@ START_TEST(skins_fit_their_joints)
   sbfi_scene scene;
   if (!read_shared(&scene, files[_i])) return;
   const sbfi_scene_mesh *m = &scene.meshes[0];
-  for (uint32_t j = 0; j < m->joint_count; j++) {
-    sbfi_matrix at = sbfi_matrix_multiply(&scene.nodes[m->joints[j].node].world, &m->joints[j].bind);
+  for (uint32_t j = 0; j < m->skin.joint_count; j++) {
+    sbfi_matrix at =
+        sbfi_matrix_multiply(&scene.nodes[m->skin.joints[j].node].world, &m->skin.joints[j].bind);
     for (int k = 0; k < 12; k++)
       ck_assert_double_eq_tol(at.at[k / 4][k % 4], scene.nodes[m->node].world.at[k / 4][k % 4], 1e-4);
   }

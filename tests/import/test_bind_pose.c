@@ -28,7 +28,7 @@ START_TEST(bones_go_back_to_where_they_were_bound)
   /* Bound with the thigh at y = -0.25 and the shin at y = -0.75 of the mesh, whose node at x = 10 says
    * nothing: the thigh shows it at (1, 1), the shin at (1.5, 1.5), and it is taken to be halfway. */
   sbfi_scene_joint joints[] = {{3, moved(0, 0.75, 0)}, {2, moved(0, 0.25, 0)}};
-  sbfi_scene_mesh meshes[] = {{.node = 0, .joint_count = 2, .joints = joints}, {.node = 5}};
+  sbfi_scene_mesh meshes[] = {{.node = 0, .skin.joint_count = 2, .skin.joints = joints}, {.node = 5}};
   sbfi_scene scene = {.nodes = nodes, .node_count = 6, .meshes = meshes, .mesh_count = 2};
   sbfi_matrix worlds[6];
   sbfi_arena_init(&scene.arena, NULL, 0);
@@ -53,7 +53,7 @@ START_TEST(a_turn_alone_is_another_pose)
       {.name = "next", .parent = 1, .local = moved(0, 0, 0), .is_bone = true}};
   sbfi_scene_set_worlds(nodes, 3);
   sbfi_scene_joint joints[] = {{1, moved(0, 0, 0)}, {2, moved(0, 0, 0)}};
-  sbfi_scene_mesh mesh = {.node = 0, .joint_count = 1, .joints = joints};
+  sbfi_scene_mesh mesh = {.node = 0, .skin.joint_count = 1, .skin.joints = joints};
   sbfi_scene scene = {.nodes = nodes, .node_count = 3, .meshes = &mesh, .mesh_count = 1};
   sbfi_matrix worlds[3];
   double deviation;
@@ -62,7 +62,7 @@ START_TEST(a_turn_alone_is_another_pose)
   ck_assert_double_eq_tol(deviation, 0, 1e-12);
   /* The last joint was bound a quarter turn back from the first. */
   ck_assert(sbfi_matrix_invert(&turn, &joints[1].bind));
-  mesh.joint_count = 2;
+  mesh.skin.joint_count = 2;
   ck_assert(sbfi_bind_worlds(&scene, worlds, &deviation));
   ck_assert_double_ge(deviation, 0.5);
 }

@@ -70,7 +70,7 @@ START_TEST(closed_surfaces_are_turned_outwards)
     int32_t node = scene_node(&scene, "leg", SBF_NONE, false, 0, 0, 0);
     sbfi_scene_mesh *mesh = scene_box(&scene, node, 1, 0, 0, 0, true);
     for (uint32_t k = 0; i == 1 && k < 6; k++) {
-      sbf_vec3 *n = (sbf_vec3 *)(uintptr_t)&mesh->normals[k];
+      sbf_vec3 *n = (sbf_vec3 *)(uintptr_t)&mesh->normals.at[k];
       *n = (sbf_vec3){-n->x, -n->y, -n->z};
     }
     scene_end(&scene);
@@ -238,9 +238,9 @@ START_TEST(skins_are_normalised)
   int32_t node = scene_node(&scene, "skin", bones[1], false, 0, -2, 0);
   sbfi_scene_mesh *mesh = scene_box(&scene, node, 1, 0, 1.5, 0, false);
   scene_skin(&scene, mesh, 2, bones, any);
-  mesh->skin_starts = starts;
-  mesh->skin_joints = joints;
-  mesh->skin_weights = weights;
+  mesh->skin.starts = starts;
+  mesh->skin.joint_index = joints;
+  mesh->skin.weights = weights;
   scene_end(&scene);
   converted c;
   converted_scene(&c, &scene, &scene, NULL);

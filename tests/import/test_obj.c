@@ -97,13 +97,13 @@ START_TEST(each_mesh_has_its_own_normals_and_uvs)
   read_text(&scene, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0.5\nvn 0 0 1\nvn 0 0 -1\n"
                     "g a\nf 1/1/2 2/2/2 3/4/2\ng b\nf 3/3 2/2 1\ng c\nf 1 2 3\n");
   const sbfi_scene_mesh *a = &scene.meshes[0], *b = &scene.meshes[1], *c = &scene.meshes[2];
-  ck_assert_uint_eq(a->normal_count, 1);
-  ck_assert_float_eq(a->normals[0].z, -1);
-  ck_assert_int_eq(a->corner_normals[2], 0);
+  ck_assert_uint_eq(a->normals.count, 1);
+  ck_assert_float_eq(a->normals.at[0].z, -1);
+  ck_assert_int_eq(a->normals.corner_index[2], 0);
   ck_assert_uint_eq(a->uv_sets[0].count, 3);
   ck_assert_int_eq(a->uv_sets[0].corner[2], 2);
   ck_assert_float_eq(a->uv_sets[0].at[2].x, 0.5f);
-  ck_assert_ptr_null(b->corner_normals);
+  ck_assert_ptr_null(b->normals.corner_index);
   ck_assert_uint_eq(b->uv_sets[0].count, 2);
   ck_assert_int_eq(b->uv_sets[0].corner[0], 1);
   ck_assert_int_eq(b->uv_sets[0].corner[2], SBF_NONE);

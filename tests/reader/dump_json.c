@@ -78,7 +78,7 @@ static void write_value(dump *d, const sbfi_field *field, const void *object) {
     sbfi_text_char(&d->text, ']');
     break;
   case SBFI_ENUM:
-    write_string(d, field->values[sbfi_get_integer(object, field)]);
+    write_string(d, field->words.at[sbfi_get_integer(object, field)]);
     break;
   case SBFI_REF: {
     const char *id = sbfi_ref_id(d->asset, field, sbfi_get_integer(object, field));

@@ -29,11 +29,12 @@ static void slide_of(slide *s, float was, float to, float bound, float sticks) {
   s->node.known_impulse[0] = (double)(KG * to); /* what moves it there */
   for (int k = 0; k < 3; k++) s->node.inertia[k][k] = 1;
   s->contact.normal = (sbf_vec3){0, 1, 0};
-  s->contact.tangential_mass = bound / sticks, s->contact.bound = bound, s->contact.slides = true;
-  s->contact.previous_change.x = was, s->contact.last_change.x = to;
+  s->contact.substep.tangential_mass = bound / sticks, s->contact.sliding.bound = bound,
+  s->contact.iteration.slides = true;
+  s->contact.iteration.previous_change.x = was, s->contact.iteration.last_change.x = to;
   s->work.system.nodes = &s->node, s->work.system.node_count = 1;
   s->work.pushes = &s->search;
-  s->work.contacts = &s->contact, s->work.rigid_contact_count = 1;
+  s->work.contact_list.at = &s->contact, s->work.contact_list.count = 1;
   s->tick.model = &s->model;
 }
 
@@ -46,7 +47,8 @@ START_TEST(what_sticks_is_found_however_narrow)
     for (int from = -1; from <= 1; from += 2) {
       slide s;
       slide_of(&s, 2e-4f * (float)from, 0.8f * (float)side, 6.9f, sticks[_i]);
-      if (from == side) s.node.previous[0] = s.contact.previous_change.x = -2.1f * sticks[_i] * (float)side;
+      if (from == side)
+        s.node.previous[0] = s.contact.iteration.previous_change.x = -2.1f * sticks[_i] * (float)side;
       float fraction = sbri_rigid_search(&s.tick, &s.work, 1e-3f);
       double at = s.node.previous[0] + (double)fraction * (s.node.x[0] - s.node.previous[0]);
       ck_assert_double_le(fabs(at), 1.02 * (double)sticks[_i]);

@@ -48,15 +48,16 @@ static const char *copy_text(filler *f, const char *text) {
 static float random_float(filler *f, const sbfi_field *field) {
   static const double scales[] = {1, 1e-3, 37, 1e-7, 12345.678, 3e9};
   double value = random_unit(f);
-  if (!field->has_range) return (float)(value * 2 - 1);
-  if (field->max <= FLT_MAX) return (float)(field->min + (field->max - field->min) * value);
-  return (float)(field->min + value * scales[random_below(f, sizeof scales / sizeof *scales)]);
+  if (!field->range.is_stated) return (float)(value * 2 - 1);
+  if (field->range.max <= FLT_MAX)
+    return (float)(field->range.min + (field->range.max - field->range.min) * value);
+  return (float)(field->range.min + value * scales[random_below(f, sizeof scales / sizeof *scales)]);
 }
 
 static void fill_floats(filler *f, const sbfi_field *field, float *to, size_t count) {
   /* what a printer and a parser may stumble over */
   static const float odd[] = {-0.0f, 1e-45f, FLT_MAX, -FLT_MAX, FLT_MIN, 16777216, 0.1f};
-  bool any = field->type == SBFI_LIST && field->width == 1 && !field->has_range;
+  bool any = field->type == SBFI_LIST && field->width == 1 && !field->range.is_stated;
   for (size_t i = 0; i < count; i++)
     to[i] = any && i < sizeof odd / sizeof *odd ? odd[i] : random_float(f, field);
 }
@@ -81,11 +82,11 @@ static int32_t random_ref(filler *f, const sbfi_element_path *path, const sbfi_f
 }
 
 static int32_t random_enum(filler *f, const sbfi_element_path *path, const sbfi_field *field) {
-  if (path->field && path->field->by && strcmp(path->field->by, field->name) == 0)
-    return (int32_t)(path->index % field->value_count);
-  if (field->value_count == 1) return 0;
-  uint32_t value = random_below(f, field->value_count - 1);
-  return (int32_t)(value + (value >= field->default_integer));
+  if (path->field && path->field->tag.by && strcmp(path->field->tag.by, field->name) == 0)
+    return (int32_t)(path->index % field->words.count);
+  if (field->words.count == 1) return 0;
+  uint32_t value = random_below(f, field->words.count - 1);
+  return (int32_t)(value + (value >= field->initial.integer));
 }
 
 /* --- lists --- */
@@ -104,7 +105,7 @@ static uint32_t pick_length(filler *f, const sbfi_element_path *path, const sbfi
 
 static void fill_integers(
     filler *f, const sbfi_element_path *path, const sbfi_field *field, uint32_t *to, size_t count) {
-  uint32_t low = field->has_range ? (uint32_t)field->min : 0, span = 5;
+  uint32_t low = field->range.is_stated ? (uint32_t)field->range.min : 0, span = 5;
   if (field->index) span = (uint32_t)sbfi_length_value(field->index, path);
   for (size_t i = 0; i < count; i++) to[i] = low + random_below(f, span);
 }
@@ -141,7 +142,7 @@ static void fill_object(filler *f, const sbfi_element_path *path, void *object);
 
 static void make_children(filler *f, const sbfi_field *field, void *object) {
   uint32_t count = f->options.children;
-  if (field->suffix) count = sbfi_element_field(field->element, field->by)->value_count;
+  if (field->tag.suffix) count = sbfi_element_field(field->element, field->tag.by)->words.count;
   char *row = allocate(f, count, field->element->struct_size);
   if (!row) return;
   for (uint32_t i = 0; i < count; i++)
@@ -170,11 +171,11 @@ static void fill_field(filler *f, const sbfi_element_path *path, const sbfi_fiel
   char *at = (char *)object + field->offset;
   switch (field->type) {
   case SBFI_BOOL:
-    *(bool *)at = !field->default_integer;
+    *(bool *)at = !field->initial.integer;
     break;
   case SBFI_INT:
   case SBFI_UINT:
-    sbfi_set_integer(object, field, (int32_t)(field->default_integer + 1 + random_below(f, 99)));
+    sbfi_set_integer(object, field, (int32_t)(field->initial.integer + 1 + random_below(f, 99)));
     break;
   case SBFI_FLOAT:
   case SBFI_VEC2:
@@ -189,7 +190,7 @@ static void fill_field(filler *f, const sbfi_element_path *path, const sbfi_fiel
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID: /* one that has a default is the version: all fields are used */
-    sbfi_set_pointer(object, field, *field->default_text ? SBF_FORMAT_VERSION : random_text(f, path, field));
+    sbfi_set_pointer(object, field, *field->initial.text ? SBF_FORMAT_VERSION : random_text(f, path, field));
     break;
   case SBFI_ENUM:
     sbfi_set_integer(object, field, random_enum(f, path, field));
@@ -258,7 +259,7 @@ static bool is_default(const sbfi_field *field, const void *object) {
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID:
-    return strcmp(sbfi_get_pointer(object, field), field->default_text) == 0;
+    return strcmp(sbfi_get_pointer(object, field), field->initial.text) == 0;
   case SBFI_LIST:
     return sbfi_get_list(object, field).count == 0;
   case SBFI_OPTIONAL:
@@ -283,8 +284,8 @@ static void search_object(search *s, const sbfi_element_path *path) {
 
 /* What can have no other value: fixed by its place, of a single word, or with the one version there is. */
 static bool has_choice(const sbfi_field *field) {
-  return !(field->type == SBFI_ENUM && field->value_count == 1) &&
-         !(field->type == SBFI_STRING && *field->default_text);
+  return !(field->type == SBFI_ENUM && field->words.count == 1) &&
+         !(field->type == SBFI_STRING && *field->initial.text);
 }
 
 static bool element_is_filled(

@@ -25,9 +25,9 @@ static void found(finder *f, const sbfi_element_path *location, const sbfi_field
 }
 
 static bool in_range(const sbfi_field *field, double value) {
-  if (!field->has_range) return true;
-  if (field->min_open ? !(value > field->min) : !(value >= field->min)) return false;
-  return field->max_open ? value < field->max : value <= field->max;
+  if (!field->range.is_stated) return true;
+  if (field->range.min_open ? !(value > field->range.min) : !(value >= field->range.min)) return false;
+  return field->range.max_open ? value < field->range.max : value <= field->range.max;
 }
 
 static void see_floats(
@@ -62,8 +62,8 @@ static void see_reference(finder *f, const sbfi_element_path *path, const sbfi_f
     return;
   }
   sbfi_list collection;
-  memcpy(&collection.at, (const char *)f->asset + field->target, sizeof collection.at);
-  memcpy(&collection.count, (const char *)f->asset + field->target + sizeof collection.at,
+  memcpy(&collection.at, (const char *)f->asset + field->reference.offset, sizeof collection.at);
+  memcpy(&collection.count, (const char *)f->asset + field->reference.offset + sizeof collection.at,
       sizeof collection.count);
   if (value < 0 || (uint32_t)value >= collection.count) found(f, path, field, "a reference out of range");
   if (field->earlier && value >= (int32_t)path->index) found(f, path, field, "a reference to a later item");
@@ -147,7 +147,7 @@ static void see_object(finder *f, const sbfi_element_path *path) {
       see_text(f, path, field);
       break;
     case SBFI_ENUM:
-      if ((uint32_t)sbfi_get_integer(path->object, field) >= field->value_count)
+      if ((uint32_t)sbfi_get_integer(path->object, field) >= field->words.count)
         found(f, path, field, "a word of no meaning");
       break;
     case SBFI_REF:

@@ -41,8 +41,9 @@ static const char *check_surface(const sbfi_scene *scene, const sbfi_scene_mesh 
   for (uint32_t i = 0; i < m->corner_count; i++) REQUIRE(m->corner_points[i] < m->point_count);
   REQUIRE(indices_below(m->polygon_materials, m->polygon_count, scene->material_count));
   REQUIRE(finite_all((const float *)m->points, 3 * (size_t)m->point_count));
-  REQUIRE(finite_all((const float *)m->normals, 3 * (size_t)m->normal_count));
-  REQUIRE(!m->corner_normals || indices_below(m->corner_normals, m->corner_count, m->normal_count));
+  REQUIRE(finite_all((const float *)m->normals.at, 3 * (size_t)m->normals.count));
+  REQUIRE(
+      !m->normals.corner_index || indices_below(m->normals.corner_index, m->corner_count, m->normals.count));
   for (uint32_t i = 0; i < m->uv_set_count; i++) {
     REQUIRE(good_text(m->uv_sets[i].name));
     REQUIRE(finite_all((const float *)m->uv_sets[i].at, 2 * (size_t)m->uv_sets[i].count));
@@ -69,16 +70,16 @@ static const char *check_sources(const sbfi_scene_mesh *m) {
 }
 
 static const char *check_skin(const sbfi_scene *scene, const sbfi_scene_mesh *m) {
-  for (uint32_t i = 0; i < m->joint_count; i++) {
-    REQUIRE(m->joints[i].node >= 0 && (uint32_t)m->joints[i].node < scene->node_count);
-    REQUIRE(scene->nodes[m->joints[i].node].is_bone && finite_matrix(&m->joints[i].bind));
+  for (uint32_t i = 0; i < m->skin.joint_count; i++) {
+    REQUIRE(m->skin.joints[i].node >= 0 && (uint32_t)m->skin.joints[i].node < scene->node_count);
+    REQUIRE(scene->nodes[m->skin.joints[i].node].is_bone && finite_matrix(&m->skin.joints[i].bind));
   }
-  for (uint32_t p = 0; m->joint_count && p < m->point_count; p++) {
-    REQUIRE(m->skin_starts[p] <= m->skin_starts[p + 1]);
-    for (uint32_t k = m->skin_starts[p]; k < m->skin_starts[p + 1]; k++) {
-      REQUIRE(m->skin_joints[k] < m->joint_count);
-      REQUIRE(k == m->skin_starts[p] || m->skin_joints[k - 1] < m->skin_joints[k]);
-      REQUIRE(m->skin_weights[k] > 0 && isfinite(m->skin_weights[k]));
+  for (uint32_t p = 0; m->skin.joint_count && p < m->point_count; p++) {
+    REQUIRE(m->skin.starts[p] <= m->skin.starts[p + 1]);
+    for (uint32_t k = m->skin.starts[p]; k < m->skin.starts[p + 1]; k++) {
+      REQUIRE(m->skin.joint_index[k] < m->skin.joint_count);
+      REQUIRE(k == m->skin.starts[p] || m->skin.joint_index[k - 1] < m->skin.joint_index[k]);
+      REQUIRE(m->skin.weights[k] > 0 && isfinite(m->skin.weights[k]));
     }
   }
   for (uint32_t i = 0; i < m->shape_count; i++) {
@@ -168,8 +169,8 @@ scene_counts scene_count(const sbfi_scene *scene) {
       c.quads += size == 4;
       c.ngons += size > 4;
     }
-    for (uint32_t p = 0; m->joint_count && p < m->point_count; p++)
-      c.skinned += m->skin_starts[p + 1] > m->skin_starts[p];
+    for (uint32_t p = 0; m->skin.joint_count && p < m->point_count; p++)
+      c.skinned += m->skin.starts[p + 1] > m->skin.starts[p];
     bool *used = calloc(m->point_count, sizeof *used);
     for (uint32_t k = 0; k < m->corner_count; k++) used[m->corner_points[k]] = true;
     for (uint32_t p = 0; p < m->point_count; p++) c.unused += !used[p];

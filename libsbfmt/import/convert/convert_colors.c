@@ -14,8 +14,8 @@ static float linear_of_srgb(float stored) {
 
 /* assimp sets an opacity of 0 everywhere when the file has three components per colour. */
 static bool has_opacity(const sbfi_scene_mesh *mesh) {
-  for (uint32_t i = 0; i < mesh->color_count; i++)
-    if (mesh->colors[i].w > 0) return true;
+  for (uint32_t i = 0; i < mesh->colors.count; i++)
+    if (mesh->colors.at[i].w > 0) return true;
   return false;
 }
 
@@ -27,13 +27,13 @@ static bool is_white(const sbf_vec4 *colors, uint32_t count) {
 
 static sbf_status write_colors(sbfi_conversion *c, const sbfi_scene_mesh *mesh, const uint32_t *corner_order,
     bool linear, sbf_render_mesh *render) {
-  uint32_t white = mesh->color_count; /* index used by corners without a colour */
+  uint32_t white = mesh->colors.count; /* index used by corners without a colour */
   bool opaque = !has_opacity(mesh), partial = false;
   sbf_vec4 *colors = sbfi_convert_allocate(c, (size_t)white + 1, sizeof *colors);
   uint32_t *corners = sbfi_convert_allocate(c, mesh->corner_count, sizeof *corners);
   if (!colors || !corners) return sbfi_convert_no_memory(c);
   for (uint32_t i = 0; i < white; i++) {
-    const sbf_vec4 from = mesh->colors[i];
+    const sbf_vec4 from = mesh->colors.at[i];
     float (*component)(float) = linear ? in_unit_range : linear_of_srgb;
     colors[i] = (sbf_vec4){
         component(from.x), component(from.y), component(from.z), opaque ? 1 : in_unit_range(from.w)};
@@ -41,7 +41,7 @@ static sbf_status write_colors(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
   colors[white] = (sbf_vec4){1, 1, 1, 1};
   if (is_white(colors, white)) return SBF_OK;
   for (uint32_t i = 0; i < mesh->corner_count; i++) {
-    int32_t from = mesh->corner_colors[corner_order[i]];
+    int32_t from = mesh->colors.corner_index[corner_order[i]];
     corners[i] = from < 0 ? white : (uint32_t)from;
     partial = partial || from < 0;
   }
@@ -54,7 +54,7 @@ sbf_status sbfi_convert_colors(
     sbfi_conversion *c, const sbfi_scene_mesh *mesh, const uint32_t *corner_order, sbf_render_mesh *render) {
   const char *format = c->scene->format;
   bool is_gltf = strcmp(format, "glb") == 0 || strcmp(format, "gltf") == 0;
-  if (!mesh->color_count || !mesh->corner_count) return SBF_OK;
+  if (!mesh->colors.count || !mesh->corner_count) return SBF_OK;
   if (is_gltf || strcmp(format, "ply") == 0) return write_colors(c, mesh, corner_order, is_gltf, render);
   sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
       "object '%s': its vertex colours are left out, because programs that write .%s store masks in them: "

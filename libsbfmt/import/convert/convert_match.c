@@ -5,7 +5,7 @@
 static void match_own_tree(sbfi_conversion *c) {
   for (uint32_t i = 0; i < c->scene->mesh_count; i++) {
     const sbfi_scene_mesh *mesh = &c->scene->meshes[i];
-    c->bone_of_mesh[i] = mesh->joint_count ? SBF_NONE : c->bone_of_node[mesh->node];
+    c->bone_of_mesh[i] = mesh->skin.joint_count ? SBF_NONE : c->bone_of_node[mesh->node];
     c->name_of_mesh[i] = c->scene->nodes[mesh->node].name;
   }
 }

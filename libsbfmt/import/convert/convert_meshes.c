@@ -26,19 +26,19 @@ typedef struct geometry {
  * keeps its bind position. */
 static sbf_status position_skinned(
     sbfi_conversion *c, const sbfi_scene_mesh *mesh, const sbfi_matrix *unskinned, sbf_vec3 *positions) {
-  sbfi_matrix *joints = sbfi_arena_allocate(&c->scratch, mesh->joint_count, sizeof *joints);
+  sbfi_matrix *joints = sbfi_arena_allocate(&c->scratch, mesh->skin.joint_count, sizeof *joints);
   if (!joints) return sbfi_convert_no_memory(c);
-  for (uint32_t j = 0; j < mesh->joint_count; j++) {
+  for (uint32_t j = 0; j < mesh->skin.joint_count; j++) {
     sbfi_matrix world =
-        sbfi_matrix_multiply(&c->scene->nodes[mesh->joints[j].node].world, &mesh->joints[j].bind);
+        sbfi_matrix_multiply(&c->scene->nodes[mesh->skin.joints[j].node].world, &mesh->skin.joints[j].bind);
     joints[j] = sbfi_matrix_multiply(&c->to_asset, &world);
   }
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     double sum[3] = {0, 0, 0}, total = 0;
-    for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++) {
-      const sbfi_matrix *m = &joints[mesh->skin_joints[s]];
+    for (uint32_t s = mesh->skin.starts[i]; s < mesh->skin.starts[i + 1]; s++) {
+      const sbfi_matrix *m = &joints[mesh->skin.joint_index[s]];
       const sbf_vec3 p = mesh->points[i];
-      double w = (double)mesh->skin_weights[s];
+      double w = (double)mesh->skin.weights[s];
       for (int r = 0; r < 3; r++)
         sum[r] += w * (m->at[r][0] * (double)p.x + m->at[r][1] * (double)p.y + m->at[r][2] * (double)p.z +
                           m->at[r][3]);
@@ -108,7 +108,7 @@ static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *me
   g->to_asset = sbfi_matrix_multiply(&c->to_asset, &transform);
   for (uint32_t i = 0; i < mesh->point_count; i++)
     positions[i] = sbfi_transform_point(&g->to_asset, mesh->points[i]);
-  sbf_status status = mesh->joint_count ? position_skinned(c, mesh, &g->to_asset, positions) : SBF_OK;
+  sbf_status status = mesh->skin.joint_count ? position_skinned(c, mesh, &g->to_asset, positions) : SBF_OK;
   bool mirrored = sbfi_matrix_determinant(&g->to_asset) < 0;
   write_polygons(mesh, mirrored, sizes, points, g->corner_order);
   sbf_polygon_mesh_init(&g->mesh);
@@ -172,17 +172,18 @@ static bool point_backwards(const sbf_polygon_mesh *mesh, const sbf_vec3 *normal
 
 static sbf_status convert_normals(
     sbfi_conversion *c, const sbfi_scene_mesh *mesh, const geometry *g, sbf_render_mesh *render) {
-  if (!mesh->corner_normals || mesh->corner_count == 0 || mesh->normal_count == 0) return SBF_OK;
+  if (!mesh->normals.corner_index || mesh->corner_count == 0 || mesh->normals.count == 0) return SBF_OK;
   uint32_t *corners = sbfi_convert_allocate(c, mesh->corner_count, sizeof *corners);
-  sbf_vec3 *normals = sbfi_convert_allocate(c, mesh->normal_count, sizeof *normals);
+  sbf_vec3 *normals = sbfi_convert_allocate(c, mesh->normals.count, sizeof *normals);
   if (!corners || !normals) return sbfi_convert_no_memory(c);
-  if (!reorder_corners(mesh->corner_normals, g->corner_order, mesh->corner_count, corners)) return SBF_OK;
-  for (uint32_t i = 0; i < mesh->normal_count; i++)
-    normals[i] = transform_normal(&g->to_asset, mesh->normals[i]);
+  if (!reorder_corners(mesh->normals.corner_index, g->corner_order, mesh->corner_count, corners))
+    return SBF_OK;
+  for (uint32_t i = 0; i < mesh->normals.count; i++)
+    normals[i] = transform_normal(&g->to_asset, mesh->normals.at[i]);
   if (g->is_reversed && point_backwards(&g->mesh, normals, corners))
-    for (uint32_t i = 0; i < mesh->normal_count; i++)
+    for (uint32_t i = 0; i < mesh->normals.count; i++)
       normals[i] = (sbf_vec3){-normals[i].x, -normals[i].y, -normals[i].z};
-  render->normals = (sbf_vec3_list){normals, mesh->normal_count};
+  render->normals = (sbf_vec3_list){normals, mesh->normals.count};
   render->normal_corners = (sbf_u32_list){corners, mesh->corner_count};
   return SBF_OK;
 }
@@ -261,7 +262,7 @@ static void report_weights(
 
 /* Converts weights to bones; they sum to 1 at each point. A point without weights follows the mesh's node. */
 static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *render) {
-  uint32_t total = mesh->skin_starts[mesh->point_count];
+  uint32_t total = mesh->skin.starts[mesh->point_count];
   sbf_skin *skin = sbfi_convert_allocate(c, 1, sizeof *skin);
   uint32_t *counts = sbfi_convert_allocate(c, mesh->point_count, sizeof *counts);
   uint32_t *bones = sbfi_convert_allocate(c, total + mesh->point_count, sizeof *bones);
@@ -271,8 +272,8 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
   uint32_t at = 0, unweighted = 0, lost = 0;
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     double sum = 0;
-    for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++)
-      sum += (double)mesh->skin_weights[s];
+    for (uint32_t s = mesh->skin.starts[i]; s < mesh->skin.starts[i + 1]; s++)
+      sum += (double)mesh->skin.weights[s];
     if (sum <= 0) {
       unweighted++;
       counts[i] = 1;
@@ -281,11 +282,11 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
       continue;
     }
     lost += sum < MIN_WEIGHT_SUM;
-    for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++) {
-      int32_t bone = c->bone_of_node[mesh->joints[mesh->skin_joints[s]].node];
+    for (uint32_t s = mesh->skin.starts[i]; s < mesh->skin.starts[i + 1]; s++) {
+      int32_t bone = c->bone_of_node[mesh->skin.joints[mesh->skin.joint_index[s]].node];
       counts[i]++;
       bones[at] = bone >= 0 ? (uint32_t)bone : 0;
-      weights[at++] = (float)((double)mesh->skin_weights[s] / sum);
+      weights[at++] = (float)((double)mesh->skin.weights[s] / sum);
     }
   }
   report_weights(c, mesh, unweighted, lost);
@@ -342,9 +343,9 @@ static sbf_status fill_render_mesh(
   if (status == SBF_OK) status = convert_uvs(c, mesh, g, render);
   if (status == SBF_OK) status = sbfi_convert_colors(c, mesh, g->corner_order, render);
   if (status == SBF_OK) status = convert_slots(c, mesh, render);
-  if (status == SBF_OK && mesh->joint_count) status = convert_skin(c, mesh, render);
+  if (status == SBF_OK && mesh->skin.joint_count) status = convert_skin(c, mesh, render);
   if (status == SBF_OK) status = convert_shapes(c, mesh, g, render);
-  if (status == SBF_OK && mesh->joint_count && !sbfi_pin_skin(c, mesh, render))
+  if (status == SBF_OK && mesh->skin.joint_count && !sbfi_pin_skin(c, mesh, render))
     return sbfi_convert_no_memory(c);
   return status;
 }
@@ -374,7 +375,7 @@ static sbf_status attach_loose(
   if (!objects) return sbfi_convert_no_memory(c);
   for (uint32_t i = 0; i < count; i++) {
     const sbfi_scene_mesh *mesh = &c->scene->meshes[i];
-    bool loose = !geometries[i].is_flat && !mesh->joint_count && !sbfi_mesh_is_pinned(c, mesh);
+    bool loose = !geometries[i].is_flat && !mesh->skin.joint_count && !sbfi_mesh_is_pinned(c, mesh);
     objects[i] = loose ? &geometries[i].mesh : NULL;
   }
   return sbfi_attach_objects(c, skins, skin_count, objects);
@@ -394,7 +395,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
       sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
           "object '%s' is left out, because none of its polygons has an area",
           c->scene->nodes[c->scene->meshes[i].node].name);
-    else if (status == SBF_OK && c->scene->meshes[i].joint_count && c->asset->bones.count)
+    else if (status == SBF_OK && c->scene->meshes[i].skin.joint_count && c->asset->bones.count)
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
   }
   if (status == SBF_OK) status = attach_loose(c, geometries, renders, render_count);
@@ -402,7 +403,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   sbfi_skins skins;
   if (!sbfi_skins_make(&skins, renders, render_count, &c->scratch)) return sbfi_convert_no_memory(c);
   for (uint32_t i = 0; i < count && status == SBF_OK; i++) {
-    bool skinned = c->scene->meshes[i].joint_count && c->asset->bones.count;
+    bool skinned = c->scene->meshes[i].skin.joint_count && c->asset->bones.count;
     bool pinned = sbfi_mesh_is_pinned(c, &c->scene->meshes[i]);
     if (geometries[i].is_flat || (skinned && !pinned)) continue;
     sbf_soft_body *body = &bodies[body_count++];

@@ -7,8 +7,8 @@ static const double rigid_weight = 0.9999;
 
 /* Index of the mesh's joint with that name; -1 if none. */
 static int64_t joint_named(const sbfi_conversion *c, const sbfi_scene_mesh *mesh, const char *name) {
-  for (uint32_t j = 0; j < mesh->joint_count; j++)
-    if (strcmp(c->scene->nodes[mesh->joints[j].node].name, name) == 0) return j;
+  for (uint32_t j = 0; j < mesh->skin.joint_count; j++)
+    if (strcmp(c->scene->nodes[mesh->skin.joints[j].node].name, name) == 0) return j;
   return -1;
 }
 
@@ -62,9 +62,9 @@ static float *weights_of(sbfi_conversion *c, const sbfi_scene_mesh *mesh, const 
   if (!weights) return NULL;
   if (group) memcpy(weights, group->weights, mesh->point_count * sizeof *weights);
   for (uint32_t i = 0; i < mesh->point_count && joint >= 0; i++)
-    for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++)
-      if (mesh->skin_joints[s] == joint && mesh->skin_weights[s] > weights[i])
-        weights[i] = mesh->skin_weights[s];
+    for (uint32_t s = mesh->skin.starts[i]; s < mesh->skin.starts[i + 1]; s++)
+      if (mesh->skin.joint_index[s] == joint && mesh->skin.weights[s] > weights[i])
+        weights[i] = mesh->skin.weights[s];
   return weights;
 }
 

@@ -21,11 +21,11 @@ typedef struct skin_points {
 } skin_points;
 
 static int32_t main_bone(const sbfi_conversion *c, const sbfi_scene_mesh *mesh, uint32_t point) {
-  uint32_t max = mesh->skin_starts[point], end = mesh->skin_starts[point + 1];
+  uint32_t max = mesh->skin.starts[point], end = mesh->skin.starts[point + 1];
   if (max == end) return SBF_NONE;
   for (uint32_t k = max; k < end; k++)
-    if (mesh->skin_weights[k] > mesh->skin_weights[max]) max = k;
-  return c->bone_of_node[mesh->joints[mesh->skin_joints[max]].node];
+    if (mesh->skin.weights[k] > mesh->skin.weights[max]) max = k;
+  return c->bone_of_node[mesh->skin.joints[mesh->skin.joint_index[max]].node];
 }
 
 static bool gather(const sbfi_conversion *c, sbfi_skeleton_draft *s, sbfi_arena *scratch, skin_points *all) {
@@ -39,7 +39,7 @@ static bool gather(const sbfi_conversion *c, sbfi_skeleton_draft *s, sbfi_arena 
     const sbfi_scene_mesh *mesh = &c->rig->meshes[m];
     sbfi_matrix world = sbfi_scene_mesh_world(c->rig, mesh);
     world = sbfi_matrix_multiply(&c->rig_to_asset, &world);
-    for (uint32_t i = 0; mesh->joint_count && i < mesh->point_count; i++) {
+    for (uint32_t i = 0; mesh->skin.joint_count && i < mesh->point_count; i++) {
       int32_t bone = main_bone(c, mesh, i);
       if (bone == SBF_NONE) continue;
       sbfi_d3 at = sbfi_d3_of(sbfi_transform_point(&world, mesh->points[i]));
@@ -98,7 +98,7 @@ static uint32_t count_border(
   memset(border, 0, s->count * sizeof *border);
   for (uint32_t m = 0; m < c->rig->mesh_count; m++) {
     const sbfi_scene_mesh *mesh = &c->rig->meshes[m];
-    for (uint32_t p = 0; mesh->joint_count && p < mesh->polygon_count; p++) {
+    for (uint32_t p = 0; mesh->skin.joint_count && p < mesh->polygon_count; p++) {
       uint32_t begin = mesh->polygon_starts[p], end = mesh->polygon_starts[p + 1];
       for (uint32_t k = begin; k < end; k++) {
         int32_t a = main_bone(c, mesh, mesh->corner_points[k]);

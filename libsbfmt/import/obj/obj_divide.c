@@ -250,9 +250,9 @@ static bool make_normals(division *d, uint32_t mesh, sbfi_scene_mesh *to) {
   int32_t *corners;
   if (!normals || !copy_corners(d, mesh, SBFI_OBJ_NORMAL, to->corner_count, &corners)) return false;
   for (uint32_t i = 0; i < count; i++) normals[i] = all[g->items[first + i]];
-  to->normal_count = count;
-  to->normals = normals;
-  to->corner_normals = corners;
+  to->normals.count = count;
+  to->normals.at = normals;
+  to->normals.corner_index = corners;
   return true;
 }
 

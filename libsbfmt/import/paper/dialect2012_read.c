@@ -201,8 +201,8 @@ static bool read_limit(paper_reader *r, attribute_list attributes) {
   const sbfi_field *field = target_field();
   sbfi_span target = value_of(attributes, "target");
   uint32_t word = 0;
-  while (word < field->value_count && !(target.at && sbfi_span_is(target, field->values[word]))) word++;
-  if (word == field->value_count)
+  while (word < field->words.count && !(target.at && sbfi_span_is(target, field->words.at[word]))) word++;
+  if (word == field->words.count)
     return fail(r, SBF_CODE_XML_BAD_VALUE, "\"%s\" is not a motion that a joint can limit",
         sbfi_quote_of(target).text);
   sbfi_paper_limit *limit = push(r, &r->model->limits);
@@ -318,9 +318,9 @@ static location step_to(paper_reader *r, const char *name) {
 static int joint_kind(const char *name) {
   const sbfi_field *joints = sbfi_element_field(&sbfi_asset_element, "joints");
   const sbfi_field *kind = sbfi_element_field(joints->element, "kind");
-  for (uint32_t i = 0; i < kind->value_count; i++) {
-    size_t length = strlen(kind->values[i]);
-    if (strncmp(name, kind->values[i], length) == 0 && strcmp(name + length, joints->suffix) == 0)
+  for (uint32_t i = 0; i < kind->words.count; i++) {
+    size_t length = strlen(kind->words.at[i]);
+    if (strncmp(name, kind->words.at[i], length) == 0 && strcmp(name + length, joints->tag.suffix) == 0)
       return (int)i;
   }
   return -1;

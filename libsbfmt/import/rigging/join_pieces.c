@@ -203,41 +203,41 @@ static bool join_polygons(const joining *j, sbfi_scene_mesh *to) {
 
 static bool join_normals(const joining *j, sbfi_scene_mesh *to) {
   uint32_t total = 0, count = 0, corner = 0;
-  for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].normal_count : 0;
+  for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].normals.count : 0;
   sbf_vec3 *normals = allocate(j->r, total, sizeof *normals);
   int32_t *corners = allocate(j->r, to->corner_count, sizeof *corners);
   if (!normals || !corners) return false;
   for (uint32_t m = 0; m < j->mesh_count; m++) {
     const sbfi_scene_mesh *from = &j->meshes[m];
     if (!is_of(j, m)) continue;
-    copy_corners(from->corner_normals, from->corner_count, count, corners + corner);
-    if (from->normal_count) memcpy(normals + count, from->normals, from->normal_count * sizeof *normals);
-    count += from->normal_count;
+    copy_corners(from->normals.corner_index, from->corner_count, count, corners + corner);
+    if (from->normals.count) memcpy(normals + count, from->normals.at, from->normals.count * sizeof *normals);
+    count += from->normals.count;
     corner += from->corner_count;
   }
-  to->normals = normals;
-  to->normal_count = total;
-  to->corner_normals = total ? corners : NULL;
+  to->normals.at = normals;
+  to->normals.count = total;
+  to->normals.corner_index = total ? corners : NULL;
   return true;
 }
 
 static bool join_colors(const joining *j, sbfi_scene_mesh *to) {
   uint32_t total = 0, count = 0, corner = 0;
-  for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].color_count : 0;
+  for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].colors.count : 0;
   sbf_vec4 *colors = allocate(j->r, total, sizeof *colors);
   int32_t *corners = allocate(j->r, to->corner_count, sizeof *corners);
   if (!colors || !corners) return false;
   for (uint32_t m = 0; m < j->mesh_count; m++) {
     const sbfi_scene_mesh *from = &j->meshes[m];
     if (!is_of(j, m)) continue;
-    copy_corners(from->corner_colors, from->corner_count, count, corners + corner);
-    if (from->color_count) memcpy(colors + count, from->colors, from->color_count * sizeof *colors);
-    count += from->color_count;
+    copy_corners(from->colors.corner_index, from->corner_count, count, corners + corner);
+    if (from->colors.count) memcpy(colors + count, from->colors.at, from->colors.count * sizeof *colors);
+    count += from->colors.count;
     corner += from->corner_count;
   }
-  to->colors = colors;
-  to->color_count = total;
-  to->corner_colors = total ? corners : NULL;
+  to->colors.at = colors;
+  to->colors.count = total;
+  to->colors.corner_index = total ? corners : NULL;
   return true;
 }
 

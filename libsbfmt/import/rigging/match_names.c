@@ -91,7 +91,7 @@ void sbfi_weigh_by_name(sbfi_rigging *r) {
   for (uint32_t m = 0; rig->mesh_count && m < r->input.scene->mesh_count; m++) {
     double distance;
     int32_t other = find_namesake(r, m, &r->alignment.to_asset, &distance);
-    if (other == SBF_NONE || rig->meshes[other].joint_count) continue;
+    if (other == SBF_NONE || rig->meshes[other].skin.joint_count) continue;
     if (r->c->bone_of_node[rig->meshes[other].node] != SBF_NONE)
       set_parent_node(r, m, rig->meshes[other].node);
   }
@@ -103,13 +103,14 @@ void sbfi_weigh_by_name(sbfi_rigging *r) {
 static bool weigh_by_joints(sbfi_rigging *r, uint32_t mesh) {
   const sbfi_scene *scene = r->input.scene;
   const sbfi_scene_mesh *from = &scene->meshes[mesh];
-  for (uint32_t i = 0; i < from->skin_starts[from->point_count]; i++)
-    if (find_bone(r, scene->nodes[from->joints[from->skin_joints[i]].node].name) == SBF_NONE) return false;
+  for (uint32_t i = 0; i < from->skin.starts[from->point_count]; i++)
+    if (find_bone(r, scene->nodes[from->skin.joints[from->skin.joint_index[i]].node].name) == SBF_NONE)
+      return false;
   for (uint32_t i = 0; i < from->point_count; i++) {
     sbfi_influences *to = &r->weights[r->input.mesh_starts[mesh] + i];
-    for (uint32_t s = from->skin_starts[i]; s < from->skin_starts[i + 1]; s++) {
-      int32_t bone = find_bone(r, scene->nodes[from->joints[from->skin_joints[s]].node].name);
-      sbfi_influences_add(to, (uint32_t)bone, (double)from->skin_weights[s]);
+    for (uint32_t s = from->skin.starts[i]; s < from->skin.starts[i + 1]; s++) {
+      int32_t bone = find_bone(r, scene->nodes[from->skin.joints[from->skin.joint_index[s]].node].name);
+      sbfi_influences_add(to, (uint32_t)bone, (double)from->skin.weights[s]);
     }
     sbfi_influences_finish(to);
     if (to->at[0].weight > 0) r->sources[r->input.mesh_starts[mesh] + i] = SBFI_WEIGHTS_NAMED;
@@ -120,7 +121,7 @@ static bool weigh_by_joints(sbfi_rigging *r, uint32_t mesh) {
 void sbfi_weigh_by_own_skin(sbfi_rigging *r) {
   const sbfi_scene *scene = r->input.scene;
   for (uint32_t m = 0; m < scene->mesh_count; m++)
-    if (scene->meshes[m].joint_count && !weigh_by_joints(r, m))
+    if (scene->meshes[m].skin.joint_count && !weigh_by_joints(r, m))
       sbfi_convert_warn(r->c, SBF_CODE_IMPORT_IGNORED,
           "the skin of object '%s' names bones that the rig does not have, so its weights are left out",
           scene->nodes[scene->meshes[m].node].name);

@@ -82,7 +82,7 @@ static int32_t common_node(const sbfi_rigging *r, uint32_t mesh, const uint32_t 
   for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++) {
     if (matches[i] == UINT32_MAX) return SBF_NONE;
     const sbfi_scene_mesh *on = &r->rig.scene->meshes[mesh_of_point(&r->rig, matches[i])];
-    if (on->joint_count || (parent_node != SBF_NONE && parent_node != on->node)) return SBF_NONE;
+    if (on->skin.joint_count || (parent_node != SBF_NONE && parent_node != on->node)) return SBF_NONE;
     parent_node = on->node;
   }
   return parent_node;

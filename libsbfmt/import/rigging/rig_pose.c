@@ -30,12 +30,12 @@ static void add_scaled(sbfi_matrix *to, const sbfi_matrix *m, double weight) {
 static sbfi_matrix motion_of_skin(const sbfi_matrix *motions, const sbfi_scene_mesh *mesh, uint32_t point) {
   sbfi_matrix sum = {.at[3][3] = 1};
   double total = 0;
-  for (uint32_t s = mesh->skin_starts[point]; s < mesh->skin_starts[point + 1]; s++)
-    total += (double)mesh->skin_weights[s];
+  for (uint32_t s = mesh->skin.starts[point]; s < mesh->skin.starts[point + 1]; s++)
+    total += (double)mesh->skin.weights[s];
   if (!(total > 0)) return sbfi_matrix_identity();
-  for (uint32_t s = mesh->skin_starts[point]; s < mesh->skin_starts[point + 1]; s++)
-    add_scaled(
-        &sum, &motions[mesh->joints[mesh->skin_joints[s]].node], (double)mesh->skin_weights[s] / total);
+  for (uint32_t s = mesh->skin.starts[point]; s < mesh->skin.starts[point + 1]; s++)
+    add_scaled(&sum, &motions[mesh->skin.joints[mesh->skin.joint_index[s]].node],
+        (double)mesh->skin.weights[s] / total);
   return sum;
 }
 
@@ -48,7 +48,7 @@ void sbfi_pose_positions(
     const sbfi_scene_mesh *mesh = &rig->meshes[m];
     for (uint32_t i = 0; i < mesh->point_count; i++) {
       uint32_t point = r->rig.mesh_starts[m] + i;
-      sbfi_matrix motion = mesh->joint_count ? motion_of_skin(motions, mesh, i) : motions[mesh->node];
+      sbfi_matrix motion = mesh->skin.joint_count ? motion_of_skin(motions, mesh, i) : motions[mesh->node];
       positions[point] = sbfi_transform_point(&motion, bound[point]);
     }
   }
@@ -94,13 +94,13 @@ static bool undo_normals(const sbfi_matrix *motions, sbfi_scene_mesh *to, sbfi_a
   if (!normals || !corners) return false;
   for (uint32_t i = 0; i < to->corner_count; i++) {
     corners[i] = SBF_NONE;
-    if (to->corner_normals[i] == SBF_NONE) continue;
-    normals[count] = normal_back(&motions[to->corner_points[i]], to->normals[to->corner_normals[i]]);
+    if (to->normals.corner_index[i] == SBF_NONE) continue;
+    normals[count] = normal_back(&motions[to->corner_points[i]], to->normals.at[to->normals.corner_index[i]]);
     corners[i] = (int32_t)count++;
   }
-  to->normals = normals;
-  to->normal_count = count;
-  to->corner_normals = corners;
+  to->normals.at = normals;
+  to->normals.count = count;
+  to->normals.corner_index = corners;
   return true;
 }
 
@@ -138,6 +138,6 @@ bool sbfi_pose_undo(const sbfi_rigging *r, uint32_t mesh, const sbfi_matrix *to_
     points[i] = sbfi_transform_point(&back[i], to->points[i]);
   }
   to->points = points;
-  if (to->corner_normals && !undo_normals(own, to, arena)) return false;
+  if (to->normals.corner_index && !undo_normals(own, to, arena)) return false;
   return to->shape_count == 0 || undo_shapes(back, to, arena);
 }

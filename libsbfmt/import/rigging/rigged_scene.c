@@ -46,14 +46,14 @@ static bool add_skin(
   for (uint32_t i = 0; i < to->point_count; i++)
     for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && weights[i].at[k].weight > 0; k++)
       joint_of_node[weights[i].at[k].node] = 1;
-  to->joint_count = 0;
+  to->skin.joint_count = 0;
   for (uint32_t n = 0; n < node_count;
        n++) { /* ascending, so that joints of a point keep the order of its nodes */
     sbfi_matrix to_node;
     if (!joint_of_node[n] || !sbfi_matrix_invert(&nodes[n].world, &to_node)) continue;
-    joints[to->joint_count] =
+    joints[to->skin.joint_count] =
         (sbfi_scene_joint){(int32_t)n, sbfi_matrix_multiply(&to_node, &nodes[to->node].world)};
-    joint_of_node[n] = ++to->joint_count;
+    joint_of_node[n] = ++to->skin.joint_count;
   }
   for (uint32_t i = 0; i < to->point_count; i++) {
     for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && weights[i].at[k].weight > 0; k++) {
@@ -64,10 +64,10 @@ static bool add_skin(
     }
     starts[i + 1] = total;
   }
-  to->joints = joints;
-  to->skin_starts = starts;
-  to->skin_joints = skin_joints;
-  to->skin_weights = skin_weights;
+  to->skin.joints = joints;
+  to->skin.starts = starts;
+  to->skin.joint_index = skin_joints;
+  to->skin.weights = skin_weights;
   return true;
 }
 
@@ -91,8 +91,8 @@ static bool reverse_polygons(const sbfi_rigging *r, sbfi_scene_mesh *mesh) {
   if (!points || !normals || !vertices || !sets) return false;
   reverse_corners(mesh, mesh->corner_points, points);
   mesh->corner_points = points;
-  if (mesh->corner_normals) reverse_corners(mesh, mesh->corner_normals, normals);
-  if (mesh->corner_normals) mesh->corner_normals = normals;
+  if (mesh->normals.corner_index) reverse_corners(mesh, mesh->normals.corner_index, normals);
+  if (mesh->normals.corner_index) mesh->normals.corner_index = normals;
   if (mesh->corner_vertices) reverse_corners(mesh, mesh->corner_vertices, vertices);
   if (mesh->corner_vertices) mesh->corner_vertices = vertices;
   for (uint32_t s = 0; s < mesh->uv_set_count; s++) {
@@ -128,7 +128,7 @@ bool sbfi_rigged_scene_build(const sbfi_rigging *r) {
     add_node(r, m, nodes, at);
     bone_of_node[at] = nodes[at].parent == SBF_NONE ? SBF_NONE : bone_of_node[nodes[at].parent];
     meshes[m].node = (int32_t)at;
-    meshes[m].joint_count = 0;
+    meshes[m].skin.joint_count = 0;
     if (r->parent_nodes[m] == SBF_NONE && has_weights(r, m) && !add_skin(r, m, nodes, &meshes[m]))
       return false;
     if (r->is_reversed[m] && !reverse_polygons(r, &meshes[m])) return false;

@@ -133,7 +133,7 @@ static void assign_nearest_bone(sbfi_rigging *r, const sbfi_scene_surface *moved
   }
   if (to > from) middle = sbfi_d3_scale(middle, 1.0 / (to - from));
   const sbfi_scene_mesh *own = &r->input.scene->meshes[mesh];
-  if (r->c->rig == r->c->scene && !own->joint_count && r->c->bone_of_node[own->node] != SBF_NONE) {
+  if (r->c->rig == r->c->scene && !own->skin.joint_count && r->c->bone_of_node[own->node] != SBF_NONE) {
     r->parent_nodes[mesh] = own->node;
     return;
   }

@@ -182,9 +182,9 @@ static bool moved_by(const sbfi_conversion *c, int32_t node, uint32_t *bone_node
 static void skin_weights(
     const sbfi_conversion *c, const sbfi_scene_mesh *mesh, uint32_t point, sbfi_influences *to) {
   uint32_t node;
-  for (uint32_t s = mesh->skin_starts[point]; s < mesh->skin_starts[point + 1]; s++)
-    if (moved_by(c, mesh->joints[mesh->skin_joints[s]].node, &node))
-      sbfi_influences_add(to, node, (double)mesh->skin_weights[s]);
+  for (uint32_t s = mesh->skin.starts[point]; s < mesh->skin.starts[point + 1]; s++)
+    if (moved_by(c, mesh->skin.joints[mesh->skin.joint_index[s]].node, &node))
+      sbfi_influences_add(to, node, (double)mesh->skin.weights[s]);
 }
 
 sbfi_influences *sbfi_rig_weights(sbfi_conversion *c, const sbfi_scene_surface *surface) {
@@ -196,7 +196,7 @@ sbfi_influences *sbfi_rig_weights(sbfi_conversion *c, const sbfi_scene_surface *
     bool on_bone = moved_by(c, mesh->node, &home);
     for (uint32_t i = 0; i < mesh->point_count; i++) {
       sbfi_influences *to = &weights[surface->mesh_starts[m] + i];
-      if (mesh->joint_count)
+      if (mesh->skin.joint_count)
         skin_weights(c, mesh, i, to);
       else if (on_bone)
         sbfi_influences_add(to, home, 1);

@@ -90,7 +90,7 @@ static const sbfi_scene_mesh *mesh_at(const carrying *c, uint32_t rig_point) {
  * node or the root. */
 static void add_home(const carrying *c, uint32_t rig_point, double factor, sbfi_influences *to) {
   const sbfi_scene_mesh *mesh = mesh_at(c, rig_point);
-  if (!mesh->joint_count) return;
+  if (!mesh->skin.joint_count) return;
   int32_t home = c->r->c->bone_of_node[mesh->node];
   sbfi_influences_add(to, c->r->c->node_of_bone[home == SBF_NONE ? 0 : home], factor);
 }
@@ -137,7 +137,7 @@ static void transfer_to_point(carrying *c, uint32_t point, double sign) {
   c->distances[point] = (float)near.distance;
   c->nearest[point] = c->rigid[near.points[0]];
   const sbfi_scene_mesh *nearest_mesh = mesh_at(c, near.points[0]);
-  if (near.distance <= FARTHEST * size && !nearest_mesh->joint_count &&
+  if (near.distance <= FARTHEST * size && !nearest_mesh->skin.joint_count &&
       c->r->c->bone_of_node[nearest_mesh->node] == SBF_NONE)
     c->unskinned[point] = nearest_mesh->node;
   if (!(sbfi_d3_length(normal) > 0)) {

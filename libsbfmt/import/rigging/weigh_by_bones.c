@@ -21,7 +21,7 @@ static bool *find_deforming(const sbfi_rigging *r) {
        *deforming = sbfi_arena_allocate(&r->c->scratch, r->c->asset->bones.count + 1, sizeof *deforming);
   for (uint32_t m = 0; deforming && m < r->rig.scene->mesh_count; m++)
     for (uint32_t i = r->rig.mesh_starts[m];
-         r->rig.scene->meshes[m].joint_count && i < r->rig.mesh_starts[m + 1]; i++)
+         r->rig.scene->meshes[m].skin.joint_count && i < r->rig.mesh_starts[m + 1]; i++)
       for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && r->rig_weights[i].at[k].weight > 0; k++)
         any = deforming[r->c->bone_of_node[r->rig_weights[i].at[k].node]] = true;
   return any ? deforming : NULL;

@@ -229,9 +229,10 @@ static bool join_skin(joining *j) {
   for (size_t i = 0; i < joints.count; i++) a->joint_of_node[have[i].node] = 0;
   good = good && join_influences(j, joint_of_bone);
   if (good && joints.count) {
-    j->to->joints = sbfi_arena_copy(&a->scene->arena, joints.at, joints.count, sizeof *j->to->joints);
-    j->to->joint_count = (uint32_t)joints.count;
-    good = j->to->joints != NULL;
+    j->to->skin.joints =
+        sbfi_arena_copy(&a->scene->arena, joints.at, joints.count, sizeof *j->to->skin.joints);
+    j->to->skin.joint_count = (uint32_t)joints.count;
+    good = j->to->skin.joints != NULL;
   }
   sbfi_array_free(&joints);
   return good;
@@ -302,7 +303,7 @@ static bool weld(joining *j) {
 
 static bool copy_skin(joining *j) {
   sbfi_scene_mesh *to = j->to;
-  if (!to->joint_count) return true;
+  if (!to->skin.joint_count) return true;
   uint32_t *starts = allocate(j, (size_t)to->point_count + 1, sizeof *starts);
   if (!starts) return false;
   for (uint32_t p = 0; p < to->point_count; p++) {
@@ -319,9 +320,9 @@ static bool copy_skin(joining *j) {
       weights[k] = j->influences[i].weight;
     }
   }
-  to->skin_starts = starts;
-  to->skin_joints = joints;
-  to->skin_weights = weights;
+  to->skin.starts = starts;
+  to->skin.joint_index = joints;
+  to->skin.weights = weights;
   return true;
 }
 
@@ -453,14 +454,14 @@ static bool copy_attributes(joining *j) {
     colors = colors || j->parts[i]->colors;
   }
   if (normals) {
-    if (!copy_attribute(j, normals_of, 0, 3, &values, &to->normal_count, &corners)) return false;
-    to->normals = (const sbf_vec3 *)values;
-    to->corner_normals = corners;
+    if (!copy_attribute(j, normals_of, 0, 3, &values, &to->normals.count, &corners)) return false;
+    to->normals.at = (const sbf_vec3 *)values;
+    to->normals.corner_index = corners;
   }
   if (colors) {
-    if (!copy_attribute(j, colors_of, 0, 4, &values, &to->color_count, &corners)) return false;
-    to->colors = (const sbf_vec4 *)values;
-    to->corner_colors = corners;
+    if (!copy_attribute(j, colors_of, 0, 4, &values, &to->colors.count, &corners)) return false;
+    to->colors.at = (const sbf_vec4 *)values;
+    to->colors.corner_index = corners;
   }
   if (!j->uv_set_count) return true;
   sbfi_scene_uvs *sets = allocate(j, j->uv_set_count, sizeof *sets);

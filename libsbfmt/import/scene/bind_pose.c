@@ -21,10 +21,10 @@ static bool set_joints(const sbfi_scene *scene, sbfi_matrix *worlds) {
   /* Later skins first, so that the first skin wins. */
   for (uint32_t m = scene->mesh_count; good && m-- > 0;) {
     const sbfi_scene_mesh *mesh = &scene->meshes[m];
-    for (uint32_t j = 0; j < mesh->joint_count; j++) {
+    for (uint32_t j = 0; j < mesh->skin.joint_count; j++) {
       sbfi_matrix to_mesh;
-      if (!sbfi_matrix_invert(&mesh->joints[j].bind, &to_mesh)) continue;
-      worlds[mesh->joints[j].node] = sbfi_matrix_multiply(&spaces[m], &to_mesh);
+      if (!sbfi_matrix_invert(&mesh->skin.joints[j].bind, &to_mesh)) continue;
+      worlds[mesh->skin.joints[j].node] = sbfi_matrix_multiply(&spaces[m], &to_mesh);
     }
   }
   sbfi_arena_free(&scratch);
@@ -185,7 +185,7 @@ static bool all_usable(const sbfi_scene *scene, const sbfi_matrix *worlds) {
 
 bool sbfi_scene_apply_bind_pose(sbfi_scene *scene) {
   bool skinned = false;
-  for (uint32_t i = 0; i < scene->mesh_count; i++) skinned = skinned || scene->meshes[i].joint_count;
+  for (uint32_t i = 0; i < scene->mesh_count; i++) skinned = skinned || scene->meshes[i].skin.joint_count;
   if (!skinned) return true;
   sbfi_matrix *worlds = sbfi_arena_allocate(&scene->arena, scene->node_count, sizeof *worlds);
   sbfi_scene_node *nodes = sbfi_arena_copy(&scene->arena, scene->nodes, scene->node_count, sizeof *nodes);

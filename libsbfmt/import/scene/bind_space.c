@@ -38,15 +38,16 @@ static void find_box(skin_view *view) {
 static bool view_skin(
     const sbfi_scene *scene, const sbfi_scene_mesh *mesh, sbfi_arena *scratch, skin_view *view) {
   view->mesh = mesh;
-  view->weights = sbfi_arena_allocate(scratch, mesh->joint_count, sizeof *view->weights);
-  view->shown = sbfi_arena_allocate(scratch, mesh->joint_count, sizeof *view->shown);
+  view->weights = sbfi_arena_allocate(scratch, mesh->skin.joint_count, sizeof *view->weights);
+  view->shown = sbfi_arena_allocate(scratch, mesh->skin.joint_count, sizeof *view->shown);
   if (!view->weights || !view->shown) return false;
   find_box(view);
-  uint32_t weight_count = mesh->skin_starts ? mesh->skin_starts[mesh->point_count] : 0;
+  uint32_t weight_count = mesh->skin.starts ? mesh->skin.starts[mesh->point_count] : 0;
   for (uint32_t s = 0; s < weight_count; s++)
-    view->weights[mesh->skin_joints[s]] += (double)mesh->skin_weights[s];
-  for (uint32_t j = 0; j < mesh->joint_count; j++) {
-    view->shown[j] = sbfi_matrix_multiply(&scene->nodes[mesh->joints[j].node].world, &mesh->joints[j].bind);
+    view->weights[mesh->skin.joint_index[s]] += (double)mesh->skin.weights[s];
+  for (uint32_t j = 0; j < mesh->skin.joint_count; j++) {
+    view->shown[j] =
+        sbfi_matrix_multiply(&scene->nodes[mesh->skin.joints[j].node].world, &mesh->skin.joints[j].bind);
     if (!weight_count) view->weights[j] = 1;
   }
   return true;
@@ -90,7 +91,7 @@ static double difference(const skin_view *view, const sbfi_matrix *one, const sb
 static const sbfi_matrix *majority(const skin_view *view) {
   const sbfi_matrix *leader = NULL;
   double lead = 0, agreed = 0, total = 0;
-  for (uint32_t j = 0; j < view->mesh->joint_count; j++) {
+  for (uint32_t j = 0; j < view->mesh->skin.joint_count; j++) {
     double weight = view->weights[j];
     if (!(weight > 0)) continue;
     if (!leader || lead <= 0) {
@@ -100,7 +101,7 @@ static const sbfi_matrix *majority(const skin_view *view) {
       lead += difference(view, leader, &view->shown[j]) <= SAME_PLACEMENT ? weight : -weight;
     }
   }
-  for (uint32_t j = 0; leader && j < view->mesh->joint_count; j++) {
+  for (uint32_t j = 0; leader && j < view->mesh->skin.joint_count; j++) {
     total += view->weights[j];
     if (difference(view, leader, &view->shown[j]) <= SAME_PLACEMENT) agreed += view->weights[j];
   }
@@ -142,7 +143,7 @@ static double determinant(const sbfi_matrix *m) {
 static bool mean_placement(const skin_view *view, sbfi_matrix *to) {
   sbfi_matrix sum = {.at[3][3] = 1};
   double total = 0, scale = 0, middle[3];
-  for (uint32_t j = 0; j < view->mesh->joint_count; j++) {
+  for (uint32_t j = 0; j < view->mesh->skin.joint_count; j++) {
     double weight = view->weights[j];
     for (int r = 0; r < 3; r++)
       for (int k = 0; k < 4; k++) sum.at[r][k] += weight * view->shown[j].at[r][k];
@@ -176,9 +177,9 @@ static sbfi_matrix holder_world(const sbfi_scene *scene, int32_t joint) {
 
 /* Transform by the topmost joint, which poses rotate least. */
 static const sbfi_matrix *root_placement(const skin_view *view) {
-  const sbfi_scene_joint *joints = view->mesh->joints;
+  const sbfi_scene_joint *joints = view->mesh->skin.joints;
   uint32_t root = UINT32_MAX; /* parents come before their children */
-  for (uint32_t j = 0; j < view->mesh->joint_count; j++)
+  for (uint32_t j = 0; j < view->mesh->skin.joint_count; j++)
     if (view->weights[j] > 0 && (root == UINT32_MAX || joints[j].node < joints[root].node)) root = j;
   return root == UINT32_MAX ? NULL : &view->shown[root];
 }
@@ -206,7 +207,7 @@ static sbfi_matrix placement_of_frame(
   const sbfi_scene_mesh *mesh = view->mesh;
   sbfi_matrix mean,
       suggested[SUGGESTIONS] = {hint ? *hint : scene->nodes[mesh->node].world, scene->nodes[mesh->node].world,
-          holder_world(scene, mesh->joints[0].node), sbfi_matrix_identity()};
+          holder_world(scene, mesh->skin.joints[0].node), sbfi_matrix_identity()};
   if (!mean_placement(view, &mean)) return suggested[0];
   const sbfi_matrix *root = root_placement(view), *best = nearest_suggestion(view, &mean, suggested);
   if (!best && root) best = nearest_suggestion(view, root, suggested);
@@ -231,8 +232,8 @@ static bool list_skins(sharing *s, sbfi_arena *scratch) {
   s->starts = sbfi_arena_allocate(scratch, (size_t)scene->node_count + 2, sizeof *s->starts);
   if (!s->starts) return false;
   for (uint32_t m = 0; m < scene->mesh_count; m++)
-    for (uint32_t j = 0; j < scene->meshes[m].joint_count; j++, total++)
-      s->starts[scene->meshes[m].joints[j].node + 2]++;
+    for (uint32_t j = 0; j < scene->meshes[m].skin.joint_count; j++, total++)
+      s->starts[scene->meshes[m].skin.joints[j].node + 2]++;
   for (uint32_t i = 2; i < scene->node_count + 2; i++) s->starts[i] += s->starts[i - 1];
   s->skins = sbfi_arena_allocate(scratch, total + 1, sizeof *s->skins);
   s->node_done = sbfi_arena_allocate(scratch, (size_t)scene->node_count + 1, sizeof *s->node_done);
@@ -241,8 +242,8 @@ static bool list_skins(sharing *s, sbfi_arena *scratch) {
   s->queue = sbfi_arena_allocate(scratch, (size_t)scene->mesh_count + 1, sizeof *s->queue);
   if (!s->skins || !s->node_done || !s->placed || !s->worlds || !s->queue) return false;
   for (uint32_t m = 0; m < scene->mesh_count; m++)
-    for (uint32_t j = 0; j < scene->meshes[m].joint_count; j++)
-      s->skins[s->starts[scene->meshes[m].joints[j].node + 1]++] = m;
+    for (uint32_t j = 0; j < scene->meshes[m].skin.joint_count; j++)
+      s->skins[s->starts[scene->meshes[m].skin.joints[j].node + 1]++] = m;
   return true;
 }
 
@@ -253,10 +254,10 @@ static void reuse_bind_pose(sharing *s, uint32_t first) {
   s->placed[first] = true;
   for (uint32_t at = 0; at < count; at++) {
     const sbfi_scene_mesh *mesh = &s->scene->meshes[s->queue[at]];
-    for (uint32_t j = 0; j < mesh->joint_count; j++) {
-      uint32_t node = (uint32_t)mesh->joints[j].node;
+    for (uint32_t j = 0; j < mesh->skin.joint_count; j++) {
+      uint32_t node = (uint32_t)mesh->skin.joints[j].node;
       sbfi_matrix to_mesh;
-      if (s->node_done[node] || !sbfi_matrix_invert(&mesh->joints[j].bind, &to_mesh)) continue;
+      if (s->node_done[node] || !sbfi_matrix_invert(&mesh->skin.joints[j].bind, &to_mesh)) continue;
       s->node_done[node] = true;
       s->worlds[node] = sbfi_matrix_multiply(&s->spaces[s->queue[at]], &to_mesh);
       for (uint32_t k = s->starts[node]; k < s->starts[node + 1]; k++) {
@@ -264,8 +265,8 @@ static void reuse_bind_pose(sharing *s, uint32_t first) {
         if (s->placed[other]) continue;
         const sbfi_scene_mesh *next = &s->scene->meshes[other];
         uint32_t shared = 0;
-        while ((uint32_t)next->joints[shared].node != node) shared++;
-        s->spaces[other] = sbfi_matrix_multiply(&s->worlds[node], &next->joints[shared].bind);
+        while ((uint32_t)next->skin.joints[shared].node != node) shared++;
+        s->spaces[other] = sbfi_matrix_multiply(&s->worlds[node], &next->skin.joints[shared].bind);
         s->placed[other] = true;
         s->queue[count++] = other;
       }
@@ -282,8 +283,8 @@ static bool pose_groups(sharing *s, sbfi_arena *scratch) {
   uint32_t largest = 0;
   for (uint32_t m = 0; m < scene->mesh_count; m++) {
     order[m] = m;
-    bool larger = scene->meshes[m].joint_count &&
-                  (!scene->meshes[largest].joint_count ||
+    bool larger = scene->meshes[m].skin.joint_count &&
+                  (!scene->meshes[largest].skin.joint_count ||
                       scene->meshes[m].point_count > scene->meshes[largest].point_count);
     if (larger) largest = m;
   }
@@ -294,7 +295,7 @@ static bool pose_groups(sharing *s, sbfi_arena *scratch) {
   for (uint32_t i = 0; i < scene->mesh_count; i++) {
     const sbfi_scene_mesh *mesh = &scene->meshes[order[i]];
     skin_view view;
-    if (!mesh->joint_count || s->placed[order[i]]) continue;
+    if (!mesh->skin.joint_count || s->placed[order[i]]) continue;
     if (!view_skin(scene, mesh, scratch, &view)) return false;
     const sbfi_matrix *agreed = majority(&view);
     s->spaces[order[i]] = agreed ? *agreed : placement_of_frame(scene, &view, hint);

@@ -124,6 +124,6 @@ void sbfi_scene_set_worlds(sbfi_scene_node *nodes, uint32_t node_count) {
 }
 
 sbfi_matrix sbfi_scene_mesh_world(const sbfi_scene *scene, const sbfi_scene_mesh *mesh) {
-  if (!mesh->joint_count) return scene->nodes[mesh->node].world;
-  return sbfi_matrix_multiply(&scene->nodes[mesh->joints[0].node].world, &mesh->joints[0].bind);
+  if (!mesh->skin.joint_count) return scene->nodes[mesh->node].world;
+  return sbfi_matrix_multiply(&scene->nodes[mesh->skin.joints[0].node].world, &mesh->skin.joints[0].bind);
 }

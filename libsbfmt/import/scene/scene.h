@@ -91,6 +91,29 @@ typedef struct sbfi_scene_shape {
   const sbf_vec3 *delta; /* (point_count) */
 } sbfi_scene_shape;
 
+/* Normals of a mesh. */
+typedef struct sbfi_scene_normals {
+  uint32_t count;
+  const sbf_vec3 *at;          /* (count), as stored: not always of unit length */
+  const int32_t *corner_index; /* (corner_count) index or SBF_NONE; NULL if the mesh has no normals */
+} sbfi_scene_normals;
+
+/* Vertex colours of a mesh. */
+typedef struct sbfi_scene_colors {
+  uint32_t count;
+  const sbf_vec4 *at;          /* (count), as stored: not always in [0, 1] */
+  const int32_t *corner_index; /* (corner_count) index or SBF_NONE; NULL if the mesh has no colours */
+} sbfi_scene_colors;
+
+/* Skin weights of the points of a mesh. */
+typedef struct sbfi_scene_skin {
+  uint32_t joint_count;           /* 0: no skin */
+  const sbfi_scene_joint *joints; /* (joint_count) */
+  const uint32_t *starts;         /* (point_count + 1) first influence of each point */
+  const uint32_t *joint_index;    /* (starts[point_count]) index into joints, ascending within a point */
+  const float *weights;           /* as stored, above 0; their sum over a point need not be 1 */
+} sbfi_scene_skin;
+
 /* A surface under one node. Points are the original ones, shared by corners; positions are in the space of
  * `node`. Polygons keep their sizes and file order; a polygon may contain a point twice (a bridged hole).
  *
@@ -109,12 +132,8 @@ typedef struct sbfi_scene_mesh {
   const int32_t *polygon_materials; /* (polygon_count) index or SBF_NONE */
   const uint32_t *corner_points;    /* (corner_count) */
 
-  uint32_t normal_count;
-  const sbf_vec3 *normals;       /* (normal_count), as stored: not always of unit length */
-  const int32_t *corner_normals; /* (corner_count) index or SBF_NONE; NULL if the mesh has no normals */
-  uint32_t color_count;
-  const sbf_vec4 *colors;       /* (color_count), as stored: not always in [0, 1] */
-  const int32_t *corner_colors; /* (corner_count) index or SBF_NONE; NULL if the mesh has no colours */
+  sbfi_scene_normals normals;
+  sbfi_scene_colors colors;
   uint32_t uv_set_count;
   const sbfi_scene_uvs *uv_sets; /* (uv_set_count) */
 
@@ -122,12 +141,7 @@ typedef struct sbfi_scene_mesh {
   const uint32_t *vertex_points;   /* (vertex_count) source vertex to point */
   const uint32_t *corner_vertices; /* (corner_count) source vertex of each corner; NULL for OBJ */
 
-  uint32_t joint_count;           /* 0: no skin */
-  const sbfi_scene_joint *joints; /* (joint_count) */
-  const uint32_t *skin_starts;    /* (point_count + 1) first influence of each point */
-  const uint32_t *skin_joints;    /* (skin_starts[point_count]) index into joints, ascending within a point */
-  const float *skin_weights;      /* as stored, above 0; their sum over a point need not be 1 */
-
+  sbfi_scene_skin skin;
   uint32_t shape_count;
   const sbfi_scene_shape *shapes; /* (shape_count) */
   uint32_t group_count;

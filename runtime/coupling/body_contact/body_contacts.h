@@ -359,7 +359,7 @@ void sbri_contact_cache_restore(sbr_world *world, const unsigned char *from);
 static inline uint32_t sbri_count_member_externals(const sbri_group_member *member) {
   uint32_t max_count = (SBRI_SOLVER_BODIES_PER_BODY - 1) * member->character->model->rigid.body_count;
   if (!member->parts.steps) return 0;
-  return member->parts.work.external_body_count < max_count ? member->parts.work.external_body_count
+  return member->parts.work.external_list.count < max_count ? member->parts.work.external_list.count
                                                             : max_count;
 }
 

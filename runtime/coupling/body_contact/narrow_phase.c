@@ -280,11 +280,11 @@ static void find_hull_corner_contacts(
 static void add_plane_contacts(const sbri_narrow_phase *f, uint32_t member) {
   const sbri_group_member *m = &f->members[member];
   const sbri_rigid_solving *work = &m->parts.work;
-  for (uint32_t i = 0; m->parts.steps && i < work->rigid_contact_count; i++) {
-    const sbri_rigid_contact *source = &work->contacts[i];
+  for (uint32_t i = 0; m->parts.steps && i < work->contact_list.count; i++) {
+    const sbri_rigid_contact *source = &work->contact_list.at[i];
     bool is_dynamic =
-        source->external_body &&
-        sbri_rigid_external_body_is_mobile(&work->external_bodies[source->external_body - 1], source->normal);
+        source->external_body && sbri_rigid_external_body_is_mobile(
+                                     &work->external_list.at[source->external_body - 1], source->normal);
     if (is_dynamic && source->external_body > sbri_count_member_externals(m)) continue;
     if (f->group->contact_count >= f->group->contact_capacity) return;
     SBF_ASSERT(f->group->first_contact + f->group->contact_count < f->world->body_contacts->contact_capacity);

@@ -67,7 +67,7 @@ static void read_rigid(const sbri_group_member *m, sbri_solver_body *to) {
 }
 
 static sbri_external_body *external_of(const sbri_group_member *m, const sbri_solver_body *body) {
-  return &m->parts.work.external_bodies[body->external - 1].is;
+  return &m->parts.work.external_list.at[body->external - 1].is;
 }
 
 /* The later in the tick its velocity changes, the longer the path that an external body covers by it
@@ -103,7 +103,7 @@ static void write_external(const sbri_group_member *m, const sbri_solver_body *f
 
 sbf_vec3 sbri_external_body_acceleration(
     const sbri_contact_group *group, const sbri_group_member *m, uint32_t external) {
-  const sbri_external_body *g = &m->parts.work.external_bodies[external - 1].is;
+  const sbri_external_body *g = &m->parts.work.external_list.at[external - 1].is;
   return sbri_scale(g->acceleration, response_factor(group, m, g));
 }
 

@@ -80,14 +80,14 @@ static uint32_t min(uint32_t a, uint32_t b) {
 static void write_tangents(const sbri_character *c, const sbri_skin *skin, const sbri_point *vertices,
     const sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t count) {
   c->model->kernels->tangents(skin, vertices, sbri_faces(c));
-  c->model->kernels->sums(&skin->tangents, sbri_faces(c), sbri_sums(c));
+  c->model->kernels->sums(&skin->tangents.sums, sbri_faces(c), sbri_sums(c));
   for (uint32_t v = 0; v < count; v++) {
     const sbri_point *sum = &sbri_sums(c)[v];
     sbf_vec3 n = normals[v], t = {sum->x, sum->y, sum->z};
     t = sbri_sub(t, sbri_scale(n, sbri_dot(n, t)));
     sbf_vec3 across = fabsf(n.x) < 0.9f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 1, 0);
     t = sbri_normalize(t, sbri_normalize(sbri_cross(n, across), sbri_vec3(1, 0, 0)));
-    tangents[v] = (sbf_vec4){t.x, t.y, t.z, skin->handedness[v]};
+    tangents[v] = (sbf_vec4){t.x, t.y, t.z, skin->tangents.handedness[v]};
   }
 }
 
@@ -121,13 +121,13 @@ uint32_t sbr_character_get_level_skin(const sbr_world *world, sbr_character_id c
   if (positions) write_points(c, vertices, count, positions);
   if (!normals && !tangents) return skin->vertex_count;
   c->model->kernels->faces(skin, vertices, sbri_faces(c));
-  c->model->kernels->normals(&skin->smooth, sbri_faces(c), sbri_sums(c));
+  c->model->kernels->normals(&skin->normals.smooth, sbri_faces(c), sbri_sums(c));
   for (uint32_t v = 0; normals && v < count; v++) {
-    const sbri_point *n = &sbri_sums(c)[skin->smooth_of[v]];
+    const sbri_point *n = &sbri_sums(c)[skin->normals.smooth_of[v]];
     normals[v] = (sbf_vec3){n->x, n->y, n->z};
   }
   if (!tangents) return skin->vertex_count;
-  if (normals && skin->tangent_blocks)
+  if (normals && skin->tangents.blocks)
     write_tangents(c, skin, vertices, normals, tangents, count);
   else
     memset(tangents, 0, count * sizeof *tangents);
@@ -145,17 +145,17 @@ uint32_t sbr_character_get_level_corner_normals(const sbr_world *world, sbr_char
   const sbri_skin *made = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
   if (!made) return 0;
   const sbri_skin now = sbri_skin_now(c, made), *skin = &now;
-  if (!normals || skin->vertex_count == 0) return skin->corner_count;
+  if (!normals || skin->vertex_count == 0) return skin->normals.corner_count;
   sample(world, c);
   sbri_skin_compute_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), sbri_vertices(c));
   sbri_fade_apply(c, render_mesh, render_level, skin, tick_fraction(world), sbri_vertices(c));
   c->model->kernels->faces(skin, sbri_vertices(c), sbri_faces(c));
-  c->model->kernels->normals(&skin->split, sbri_faces(c), sbri_sums(c));
-  for (uint32_t k = 0; k < skin->corner_count && k < capacity; k++) {
-    const sbri_point *n = &sbri_sums(c)[skin->split_of[k]];
+  c->model->kernels->normals(&skin->normals.split, sbri_faces(c), sbri_sums(c));
+  for (uint32_t k = 0; k < skin->normals.corner_count && k < capacity; k++) {
+    const sbri_point *n = &sbri_sums(c)[skin->normals.split_of[k]];
     normals[k] = (sbf_vec3){n->x, n->y, n->z};
   }
-  return skin->corner_count;
+  return skin->normals.corner_count;
 }
 
 uint32_t sbr_character_get_surface(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
