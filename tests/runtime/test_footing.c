@@ -105,7 +105,7 @@ START_TEST(a_sole_lies_as_a_board_does)
   for (int l = 0; l < 4; l++)
     w.rig.legs[l].sole = (sbri_sole){.left = 0.03f, .right = -0.03f, .toe = 0.05f, .heel = -0.05f};
   sbf_vec3 position = {0, 0, 1}, normal; /* half of it on the level, half on the bank */
-  sbri_lay_sole(&w.rig, w.state, &w.input, 0, &position, &normal);
+  sbri_set_sole_on_ground(&w.rig, w.state, &w.input, 0, &position, &normal);
   float slope = -normal.z / normal.y;
   ck_assert_float_eq_tol(slope, 0.125f, 0.01f);
   for (float z = -0.05f; z <= 0.051f; z += 0.01f) {

@@ -61,7 +61,7 @@ START_TEST(turning_about_a_foot_leaves_it_where_it_is)
   gait_stage_begin(&s, quadruped_asset());
   s.input.turn = 0.8f;
   sbf_vec3 foot = s.state->feet[0].ground;
-  s.state->pace.pivot_leg = 1;
+  s.state->stepping.pivot_leg = 1;
   sbf_vec3 arm = sbri_sub(s.state->motion.position, foot);
   for (int i = 0; i < 300; i++) {
     gait_stage_ticks(&s, 1);

@@ -50,7 +50,7 @@ static void float_at(sbf_asset *a, sbf_gait *gait, float altitude, float buoyanc
 
 /* The yaw that a bone has turned from rest against the heading. */
 static double yaw_of(const gait_stage *s, uint32_t bone) {
-  sbf_vec3 back = sbri_unheaded(s->state, sbri_rotate(s->pose[bone].rotation, sbri_vec3(0, 1, 0)));
+  sbf_vec3 back = sbri_world_to_body(s->state, sbri_rotate(s->pose[bone].rotation, sbri_vec3(0, 1, 0)));
   return atan2((double)back.x, -(double)back.z);
 }
 
@@ -293,7 +293,7 @@ static sbf_asset *cart(sbf_gait **gait, bool steers, bool tracks) {
 }
 
 static double rolled(const gait_stage *s, uint32_t bone) {
-  sbf_vec3 up = sbri_unheaded(s->state, sbri_rotate(s->pose[bone].rotation, sbri_vec3(0, 1, 0)));
+  sbf_vec3 up = sbri_world_to_body(s->state, sbri_rotate(s->pose[bone].rotation, sbri_vec3(0, 1, 0)));
   return atan2((double)up.z, (double)up.y);
 }
 
@@ -357,7 +357,7 @@ START_TEST(a_car_turns_about_its_fixed_axle_no_tighter_than_it_steers)
   sbf_vec3 rear = sbri_lerp(s.pose[1].position, s.pose[2].position, 0.5f);
   gait_stage_ticks(&s, 1);
   sbf_vec3 direction =
-      sbri_unheaded(s.state, sbri_sub(sbri_lerp(s.pose[1].position, s.pose[2].position, 0.5f), rear));
+      sbri_world_to_body(s.state, sbri_sub(sbri_lerp(s.pose[1].position, s.pose[2].position, 0.5f), rear));
   ck_assert_double_eq_tol((double)(direction.x / direction.z), 0, 0.01);
   gait_stage_end(&s);
 }

@@ -114,7 +114,7 @@ static void show(gait_stage *s, float phase, sbf_vec3 *heads) {
   sbr_transform frames[BONES];
   const sbri_rig *rig = &s->rig;
   for (uint32_t b = 0; b < BONES; b++) s->pose[b] = rig->bones.rest_local[b];
-  s->state->motion.forward = 1, s->state->pace.speed_fraction = 1, s->state->walk.phase = phase;
+  s->state->motion.forward = 1, s->state->stepping.speed_fraction = 1, s->state->walk.phase = phase;
   sbri_walk_pose(rig, s->state, 1, s->pose);
   for (uint32_t b = 0; b < BONES; b++) {
     frames[b] = s->pose[b];
@@ -168,7 +168,7 @@ START_TEST(a_walk_becomes_a_run)
   ck_assert_uint_eq(s.rig.walks.walk_count, 2);
   for (int i = 0; i < 3; i++) {
     sbri_gait_state state = {
-        .motion = {.forward = speeds[i]}, .pace = {.speed_fraction = 1}, .walk = {.phase = 0.5f}};
+        .motion = {.forward = speeds[i]}, .stepping = {.speed_fraction = 1}, .walk = {.phase = 0.5f}};
     for (uint32_t b = 0; b < BONES; b++) s.pose[b] = s.rig.bones.rest_local[b];
     float weight = fminf(1, speeds[i] / 0.25f); /* half of the gait's walking speed */
     sbri_walk_pose(&s.rig, &state, 1, s.pose);
@@ -176,7 +176,7 @@ START_TEST(a_walk_becomes_a_run)
     sbri_walk_tick(&s.rig, &state, 0.05f, 1);
     ck_assert_float_eq_tol(state.walk.phase, 0.5f + 0.05f / cycles[i], 1e-5f);
     sbri_gait_state tall = {
-        .motion = {.forward = 2 * speeds[i]}, .pace = {.speed_fraction = 1}, .walk = {.phase = 0.5f}};
+        .motion = {.forward = 2 * speeds[i]}, .stepping = {.speed_fraction = 1}, .walk = {.phase = 0.5f}};
     sbri_walk_tick(&s.rig, &tall, 0.1f, 2); /* twice as large, all lengths are */
     ck_assert_float_eq_tol(tall.walk.phase, state.walk.phase, 1e-5f);
   }

@@ -168,7 +168,7 @@ static void begin_walk(gait_stage *s, bool weighs) {
 static float leans_ahead(const gait_stage *s, uint32_t body) {
   sbf_quat rotation =
       sbri_quat_multiply(s->pose[body].rotation, sbri_quat_conjugate(s->rig.bones.rest[body].rotation));
-  return sbri_unheaded(s->state, sbri_rotate(rotation, sbri_vec3(0, 1, 0))).z;
+  return sbri_world_to_body(s->state, sbri_rotate(rotation, sbri_vec3(0, 1, 0))).z;
 }
 
 START_TEST(a_body_lags_as_it_starts_and_dives_as_it_stops_and_its_feet_stay)

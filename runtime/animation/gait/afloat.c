@@ -126,9 +126,9 @@ float sbri_afloat_move(
   if (!has_command && sbri_motion_speed(rig, state) < STILL * length && fabsf(state->motion.turn) < STILL) {
     state->motion.forward = state->motion.sideways = state->motion.turn = 0;
     if (!drifts) m->up = 0;
-    if (state->pace.standing_s < 1) state->pace.standing_s += h;
+    if (state->stepping.standing_s < 1) state->stepping.standing_s += h;
   } else {
-    state->pace.standing_s = 0;
+    state->stepping.standing_s = 0;
   }
   update_tilt(rig, state, input, medium, has_command);
   update_glide(m, input, medium);

@@ -72,7 +72,7 @@ static float line_yaw(
     const sbri_rig *rig, const sbri_gait_state *state, float scale, feet_of on_left, feet_of on_right) {
   sbf_vec3 left, right;
   if (!feet_center(rig, state, on_left, &left) || !feet_center(rig, state, on_right, &right)) return 0;
-  sbf_vec3 line = sbri_unheaded(state, sbri_sub(left, right));
+  sbf_vec3 line = sbri_world_to_body(state, sbri_sub(left, right));
   float min = NARROWEST * rig->stand.reach * scale, more = line.x - min; /* smooth minimum */
   float width = min + 0.5f * (more + sqrtf(more * more + 0.25f * min * min));
   float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, width);
@@ -115,12 +115,12 @@ static float lowering_for(const sbri_rig *rig, const sbri_gait_state *state, con
 static float max_lowering_of_belly(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, const sbr_transform *root) {
   float max = rig->stand.reach * input->scale, clear = CLEAR * max;
-  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace.speed_fraction * CLEARANCE_S), fore,
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->stepping.speed_fraction * CLEARANCE_S), fore,
            hind;
   float rise = 0, run = rig->stand.fore_z - rig->stand.hind_z; /* along the line of its feet */
   if (run > 0 && feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
     rise = (fore.y - hind.y) / (run * input->scale);
-  ahead.y = rise * sbri_unheaded(state, ahead).z;
+  ahead.y = rise * sbri_world_to_body(state, ahead).z;
   for (uint32_t k = 0; k < rig->stand.belly_count; k++) {
     sbf_vec3 at = sbri_rotate(root->rotation, sbri_scale(rig->stand.belly[k], input->scale));
     at = sbri_add(sbri_add(root->position, at), ahead);
@@ -136,12 +136,12 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
     const sbr_transform *root, float *early) {
   float min = state->balance.clearance.value < 0 ? state->balance.clearance.value : 0; /* the belly rises, */
   float max = state->balance.crouch.value < min ? state->balance.crouch.value : min;   /* and sinks slowly */
-  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace.speed_fraction * CROUCH_S);
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->stepping.speed_fraction * CROUCH_S);
   *early = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
-    if (leg->lower < 0 || leg->home.carrier >= 0) continue;
+    if (leg->lower < 0 || leg->home.chain_bone >= 0) continue;
     sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
     ankle.y += foot->lift + state->motion.position.y;
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
@@ -162,7 +162,7 @@ static float limit_for_knees(const sbri_rig *rig, const sbri_gait_state *state, 
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
-    if (leg->lower < 0 || leg->home.carrier >= 0 || !foot->planted) continue;
+    if (leg->lower < 0 || leg->home.chain_bone >= 0 || !foot->planted) continue;
     sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
     ankle.y += state->motion.position.y;
     sbf_vec3 offset = sbri_sub(sbri_hip_of(rig, state, input, i, root), ankle);
@@ -186,15 +186,16 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
   for (uint32_t i = 0; stride->speed > 0 && i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
-    if (leg->lower < 0 || leg->home.carrier >= 0) continue;
+    if (leg->lower < 0 || leg->home.chain_bone >= 0) continue;
     const sbri_home *home_state = &stride->homes[i];
-    sbri_roam roam = foot->planted ? home_state->roam : sbri_roam_of(rig, state, input, i, home_state->arm);
+    sbri_foot_circle circle =
+        foot->planted ? home_state->circle : sbri_foot_circle_of(rig, state, input, i, home_state->arm);
     float half = stride->half_m * home_state->speed / stride->speed;
     sbf_vec3 direction = sbri_normalize(home_state->velocity, sbri_vec3(0, 0, 0));
     sbf_vec3 home = sbri_add(state->motion.position, home_state->arm);
     home.y = foot->ground.y + state->motion.position.y;
     sbf_vec3 ankle = sbri_ankle_at_home(leg, foot, home, input->scale);
-    float ahead = sbri_ahead(&roam, direction, half);
+    float ahead = sbri_landing_distance(&circle, direction, half);
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
     float contact = lowering_for(rig, state, input, i, hip, sbri_add_scaled(ankle, direction, ahead), EASY);
     float leave =
@@ -315,13 +316,14 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   if (!rig->leg_count) return stance_without_lowering(rig, state, input);
   sbri_body_steps_update(rig, state, input->tick_s);
   const sbri_body_steps *steps = &state->steps;
-  sbf_vec3 lean = {0, 0, 0}, stands = sbri_headed(state, sbri_scale(state->balance.stand, input->scale));
-  if (!state->pace.in_groups || state->pace.standing_s > 0) lean = stands;
-  if (lifting) lean = sbri_support_sway(rig, state, input, lifting, direction);
+  sbf_vec3 lean = {0, 0, 0},
+           stands = sbri_body_to_world(state, sbri_scale(state->balance.stand, input->scale));
+  if (!state->stepping.in_groups || state->stepping.standing_s > 0) lean = stands;
+  if (lifting) lean = sbri_find_sway(rig, state, input, lifting, direction);
   update_sway(rig, state, input, lean);
   if (!stride)
     state->balance.sway_x = (sbri_lag){stands.x, 0}, state->balance.sway_z = (sbri_lag){stands.z, 0};
-  bool at_home = state->pace.standing_s > 0 && !lifting; /* all feet are at home */
+  bool at_home = state->stepping.standing_s > 0 && !lifting; /* all feet are at home */
   if (stride) sbri_lag_tick(&state->balance.bent, at_home ? 0 : 1, &steps->bend);
   sbri_lag_tick(
       &state->balance.upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &steps->upright);

@@ -24,7 +24,7 @@ static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, cons
   sbf_vec3 position = state->feet[leg].ground, normal;
   float min = position.y - unsupported;
   if (sbri_ground_below(input, position, NULL).y >= min) return true;
-  sbri_lay_sole(rig, state, input, leg, &position, &normal);
+  sbri_set_sole_on_ground(rig, state, input, leg, &position, &normal);
   return position.y >= min;
 }
 
@@ -74,6 +74,6 @@ bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   return true;
 }
 
-void sbri_fall_note_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+void sbri_fall_store_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   state->fall.level = support_height(rig, state, input);
 }

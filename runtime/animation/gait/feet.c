@@ -7,17 +7,19 @@
 #include "animation/gait/gait_state.h"
 
 static const float REST_AFTER_S = 0.15f; /* time of standing after which feet return home */
-static const float SETTLED = 0.15f;      /* fraction of the trigger distance within which a foot is at home */
+static const float AT_HOME = 0.15f;      /* fraction of the trigger distance within which a foot is at home */
 static const float DUE = 0.9f;           /* in half strides behind home: the foot steps */
 static const float EARLY = 0.25f;        /* the same for the next foot in turn */
 static const float COMPANION = -0.3f;    /* the same for a foot that joins another of its group */
-static const float TWISTED = 0.6f;       /* maximum angle of a planted foot to the body, rad */
-static const float MISSED = 0.002f; /* fraction of the reach: a sole this far from its target must step */
-static const float NOTED = 0.4f;    /* sideways displacement and twist below this are ignored */
-static const float STRAINED = 0.7f; /* fraction of its circle that a foot may be from home */
-static const float KEPT = 0.15f;    /* half strides: a foot must be worse by this to take another's turn */
-static const float JOINS = 0.4f;    /* phase of a step until which others of its group may join it */
-static const float WAIT_S =
+static const float MAX_TWIST = 0.6f;     /* maximum angle of a planted foot to the body, rad */
+static const float MAX_REACH_ERROR =
+    0.002f;                             /* fraction of the reach: a sole this far from its target must step */
+static const float MIN_SIDEWAYS = 0.4f; /* sideways displacement and twist below this are ignored */
+static const float MAX_HOME_DISTANCE = 0.7f; /* fraction of its circle that a foot may be from home */
+static const float TURN_ADVANTAGE =
+    0.15f;                            /* half strides: a foot must be worse by this to take another's turn */
+static const float JOIN_PHASE = 0.4f; /* phase of a step until which others of its group may join it */
+static const float MAX_WAIT_S =
     0.7f; /* longest wait for balance, s; then a foot steps anyway, sooner if the body waits too */
 
 void sbri_foot_put_down(
@@ -25,7 +27,7 @@ void sbri_foot_put_down(
   sbri_foot *foot = &state->feet[leg];
   *foot = (sbri_foot){.planted = 1, .was_planted = 1, .steps_taken = foot->steps_taken, .hip = foot->hip};
   foot->ground = sbri_add(state->motion.position, sbri_home_arm(rig, state, input, leg));
-  sbri_lay_sole(rig, state, input, leg, &foot->ground, &foot->normal);
+  sbri_set_sole_on_ground(rig, state, input, leg, &foot->ground, &foot->normal);
   sbri_foot_update_orientation(rig, state, input, leg);
 }
 
@@ -38,7 +40,7 @@ static uint32_t feet_in_air(const sbri_rig *rig, const sbri_gait_state *state, u
     if (state->feet[i].planted) continue;
     feet |= 1u << i;
     *groups |= 1u << (rig->legs[i].group & 15);
-    if (state->feet[i].step.phase > JOINS) *groups |= 1u << 31;
+    if (state->feet[i].step.phase > JOIN_PHASE) *groups |= 1u << 31;
   }
   return feet;
 }
@@ -51,25 +53,25 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
   const sbri_home *home = &stride->homes[leg];
   sbf_vec3 offset = sbri_sub(sbri_add(state->motion.position, home->arm), foot->ground);
   offset.y = 0;
-  float trigger = rig->gait->step_trigger * input->scale, twist = fabsf(foot->heading) / TWISTED;
-  if (state->pace.standing_s > 0) return sbri_length(offset) / trigger + 0.15f * twist;
+  float trigger = rig->gait->step_trigger * input->scale, twist = fabsf(foot->heading) / MAX_TWIST;
+  if (state->stepping.standing_s > 0) return sbri_length(offset) / trigger + 0.15f * twist;
   sbf_vec3 direction = sbri_normalize(home->velocity, sbri_vec3(0, 0, 0));
   float behind = sbri_dot(offset, direction),
-        beside = sbri_length(sbri_add_scaled(offset, direction, -behind));
+        sideways = sbri_length(sbri_add_scaled(offset, direction, -behind));
   float half = stride->speed > 0 ? stride->half_m * home->speed / stride->speed : 0;
   float min = 0.4f * stride->half_m;
   if (half < min) half = min;
-  float shortfall =
-      half - sbri_ahead(&home->roam, direction, half); /* its landing position is short by this much */
-  float result = (behind - shortfall) / half, wide = 0.7f * beside / stride->half_m;
+  float shortfall = half - sbri_landing_distance(&home->circle, direction,
+                               half); /* its landing position is short by this much */
+  float result = (behind - shortfall) / half, wide = 0.7f * sideways / stride->half_m;
   if (behind > 0 && result < DUE) {
-    float strain = sbri_strain(state, home, leg) / STRAINED;
-    if (strain > DUE) result = strain;
+    float distance_fraction = sbri_home_distance_fraction(state, home, leg) / MAX_HOME_DISTANCE;
+    if (distance_fraction > DUE) result = distance_fraction;
   }
-  float missed = foot->reach_error / (MISSED * rig->stand.reach * input->scale);
-  if (missed > 1 && missed > result) result = missed; /* out of the leg's reach */
-  if (wide > NOTED && wide > result) result = wide;
-  return twist > NOTED && twist > result ? twist : result;
+  float reach_error = foot->reach_error / (MAX_REACH_ERROR * rig->stand.reach * input->scale);
+  if (reach_error > 1 && reach_error > result) result = reach_error; /* out of the leg's reach */
+  if (wide > MIN_SIDEWAYS && wide > result) result = wide;
+  return twist > MIN_SIDEWAYS && twist > result ? twist : result;
 }
 
 /* Input of the selection of feet. */
@@ -81,7 +83,7 @@ typedef struct choice {
 
 /* Displacement of the body in a time. */
 static sbf_vec3 displacement_in(const sbri_gait_state *state, float time_s) {
-  return sbri_scale(sbri_body_velocity(state), state->pace.speed_fraction * time_s);
+  return sbri_scale(sbri_body_velocity(state), state->stepping.speed_fraction * time_s);
 }
 
 /* Time until the swinging feet land; the duration of a step if none swings. */
@@ -97,33 +99,34 @@ static float time_in_air(const sbri_rig *rig, const sbri_gait_state *state, floa
 
 /* Index of the foot that should step now, or -1: the one with the greatest displacement that is due and
  * allowed. */
-static int32_t choose(
+static int32_t choose_foot(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, choice *c, bool *unbalanced) {
   uint32_t groups, in_air = feet_in_air(rig, state, &groups);
   int32_t best = -1, worst = -1;
   float max = 0;
-  float wanted = state->pace.since_lift_m >= 0.95f * c->stride.spacing_m ? EARLY : DUE;
-  if (state->pace.standing_s > 0) wanted = SETTLED;
-  if (state->pace.standing_s > 0 && state->pace.standing_s < REST_AFTER_S) return -1;
+  float wanted = state->stepping.since_lift_m >= 0.95f * c->stride.spacing_m ? EARLY : DUE;
+  if (state->stepping.standing_s > 0) wanted = AT_HOME;
+  if (state->stepping.standing_s > 0 && state->stepping.standing_s < REST_AFTER_S) return -1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    if (!state->feet[i].planted || state->pace.pivot_leg == i + 1) continue;
+    if (!state->feet[i].planted || state->stepping.pivot_leg == i + 1) continue;
     uint32_t own_group = 1u << (rig->legs[i].group & 15);
     bool companion = in_air && groups == own_group;
-    float value = state->pace.next_leg == i + 1
-                      ? c->displacements[i] + KEPT
+    float value = state->stepping.next_leg == i + 1
+                      ? c->displacements[i] + TURN_ADVANTAGE
                       : c->displacements[i]; /* the body already leans for this foot */
     if (worst < 0 || value > max) worst = (int32_t)i, max = value;
     if (in_air && !companion) continue;
     float min = companion ? COMPANION : wanted;
-    if (state->pace.standing_s > 0) min = SETTLED;
+    if (state->stepping.standing_s > 0) min = AT_HOME;
     if (c->displacements[i] < min) continue;
     uint32_t lifted = in_air | 1u << i;
-    bool bears =
-        (c->stride.in_groups || c->stride.running) && (state->pace.standing_s == 0 || rig->stand.has_pegs);
-    if (!bears) {
-      bears = sbri_support_bears(rig, state, input, lifted, displacement_in(state, c->stride.duration_s));
-      if (!bears && !in_air && state->pace.waiting_s > WAIT_S) bears = true;
-      if (!bears) {
+    bool is_supported = (c->stride.in_groups || c->stride.running) &&
+                        (state->stepping.standing_s == 0 || rig->stand.has_one_bone_legs);
+    if (!is_supported) {
+      is_supported =
+          sbri_is_supported(rig, state, input, lifted, displacement_in(state, c->stride.duration_s));
+      if (!is_supported && !in_air && state->stepping.waiting_s > MAX_WAIT_S) is_supported = true;
+      if (!is_supported) {
         *unbalanced = *unbalanced || !in_air;
         continue;
       }
@@ -131,7 +134,7 @@ static int32_t choose(
     if (best < 0 || c->displacements[i] > c->displacements[best]) best = (int32_t)i;
   }
   c->next = worst >= 0 ? 1u << worst : 0;
-  state->pace.next_leg = (uint32_t)(worst + 1);
+  state->stepping.next_leg = (uint32_t)(worst + 1);
   return best;
 }
 
@@ -142,7 +145,7 @@ static uint32_t report(sbri_gait_event *events, uint32_t count, uint32_t capacit
 }
 
 /* Moves a foot that is far behind, as after a teleport, to its home. */
-static bool catch_up(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+static bool reset_distant_foot(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   sbf_vec3 home = sbri_add(state->motion.position, stride->homes[leg].arm);
   const sbri_leg *l = &rig->legs[leg];
@@ -157,45 +160,45 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     sbri_stance *stance, sbri_gait_event *events, uint32_t capacity) {
   uint32_t count = 0, groups;
   choice c = {.stride = sbri_stride_of(rig, state, input)};
-  state->pace.in_groups = c.stride.in_groups;
-  state->pace.quick = c.stride.level && (c.stride.in_groups || c.stride.running);
-  state->pace.max_half_m = c.stride.speed > 0 ? c.stride.max_half_m : 0;
+  state->stepping.in_groups = c.stride.in_groups;
+  state->stepping.quick = c.stride.level && (c.stride.in_groups || c.stride.running);
+  state->stepping.max_half_m = c.stride.speed > 0 ? c.stride.max_half_m : 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->was_planted = foot->planted;
-    bool placed = catch_up(rig, state, input, &c.stride, i);
+    bool placed = reset_distant_foot(rig, state, input, &c.stride, i);
     if (!foot->planted && sbri_swing_tick(rig, state, input, &c.stride, i)) {
       count = report(events, count, capacity, SBRI_GAIT_FOOT_DOWN, i, foot->ground);
       placed = true;
     }
-    if (placed) c.stride.homes[i].roam = sbri_roam_of(rig, state, input, i, c.stride.homes[i].arm);
+    if (placed) c.stride.homes[i].circle = sbri_foot_circle_of(rig, state, input, i, c.stride.homes[i].arm);
     if (foot->planted) c.displacements[i] = displacement(rig, state, input, &c.stride, i);
   }
-  state->pace.since_lift_m += c.stride.speed * input->tick_s;
+  state->stepping.since_lift_m += c.stride.speed * input->tick_s;
   bool unbalanced = false;
   for (uint32_t tries = 0; tries < rig->leg_count; tries++) {
-    int32_t leg = choose(rig, state, input, &c, &unbalanced);
+    int32_t leg = choose_foot(rig, state, input, &c, &unbalanced);
     if (leg < 0) break;
-    if (feet_in_air(rig, state, &groups) == 0) state->pace.since_lift_m = 0;
+    if (feet_in_air(rig, state, &groups) == 0) state->stepping.since_lift_m = 0;
     sbri_swing_begin(rig, state, input, &c.stride, (uint32_t)leg);
     count = report(events, count, capacity, SBRI_GAIT_FOOT_UP, (uint32_t)leg, state->feet[leg].ground);
     unbalanced = false;
-    state->pace.waiting_s = 0;
+    state->stepping.waiting_s = 0;
   }
-  state->pace.waiting_s = unbalanced ? state->pace.waiting_s + input->tick_s : 0;
-  if (state->pace.standing_s > 0) { /* next foot to return home, if any is away */
+  state->stepping.waiting_s = unbalanced ? state->stepping.waiting_s + input->tick_s : 0;
+  if (state->stepping.standing_s > 0) { /* next foot to return home, if any is away */
     int32_t worst = -1;
     for (uint32_t i = 0; i < rig->leg_count; i++)
-      if (state->feet[i].planted && c.displacements[i] >= SETTLED &&
+      if (state->feet[i].planted && c.displacements[i] >= AT_HOME &&
           (worst < 0 || c.displacements[i] > c.displacements[worst]))
         worst = (int32_t)i;
     c.next = worst >= 0 ? 1u << worst : 0;
   }
   uint32_t in_air = feet_in_air(rig, state, &groups);
-  bool leans =
-      !rig->stand.has_pegs && ((!c.stride.in_groups && !state->pace.quick) || state->pace.standing_s > 0);
+  bool leans = !rig->stand.has_one_bone_legs &&
+               ((!c.stride.in_groups && !state->stepping.quick) || state->stepping.standing_s > 0);
   uint32_t lifting = leans ? (in_air ? in_air : c.next) : 0;
-  if (leans && !in_air && state->pace.standing_s == 0 && !c.next) lifting = 0;
+  if (leans && !in_air && state->stepping.standing_s == 0 && !c.next) lifting = 0;
   sbf_vec3 direction = displacement_in(state, time_in_air(rig, state, c.stride.duration_s));
   *stance = sbri_body_tick(rig, state, input, &c.stride, lifting, direction);
   return count;

@@ -19,7 +19,7 @@ void sbri_fins_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   const sbri_motion_state *m = sbri_motion(rig, state);
   sbri_fin_state *fins = sbri_fin_states(rig, state);
   float cruise = rig->gait->walk_speed * input->scale,
-        rotated = state->motion.turn * state->pace.speed_fraction * input->tick_s;
+        rotated = state->motion.turn * state->stepping.speed_fraction * input->tick_s;
   for (uint32_t f = 0; f < rig->gait->fins.count; f++) {
     const sbf_fin *fin = &rig->gait->fins.at[f];
     sbf_vec3 axis = sbri_normalize(fin->axis, sbri_vec3(0, 0, 1));

@@ -6,7 +6,7 @@ void sbri_foot_update_heading(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   const sbf_vec3 *ankle = &rig->legs[leg].home.ankle;
   sbri_foot *foot = &state->feet[leg];
-  sbf_vec3 beside = sbri_headed(state, sbri_vec3(ankle->x * input->scale, 0, ankle->z * input->scale));
+  sbf_vec3 beside = sbri_body_to_world(state, sbri_vec3(ankle->x * input->scale, 0, ankle->z * input->scale));
   bool level = foot->normal.x == 0 && foot->normal.z == 0;
   foot->frame.home_ankle_offset = level ? beside : sbri_rotate(foot->frame.tilt, beside);
 }

@@ -80,20 +80,20 @@ static void find_corners(const sbri_rig *rig, const sbri_gait_state *state, floa
   const sbri_sole *sole = &rig->legs[leg].sole;
   const sbri_foot *foot = &state->feet[leg];
   float rotation = foot->planted ? 0
-                                 : state->motion.turn * state->pace.speed_fraction * (1 - foot->step.phase) *
-                                       foot->step.duration_s;
+                                 : state->motion.turn * state->stepping.speed_fraction *
+                                       (1 - foot->step.phase) * foot->step.duration_s;
   for (int k = 0; k < 4; k++) {
     sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
     if (rotation != 0) corner = sbri_rotate_yaw(corner, rotation); /* with the body's heading at landing */
-    corners[k] = sbri_headed(state, sbri_scale(corner, AROUND * scale));
+    corners[k] = sbri_body_to_world(state, sbri_scale(corner, AROUND * scale));
     if (!outline) continue;
     corner = sbri_vec3(sole->outline[k & 1 ? 0 : 1], 0, sole->outline[k & 2 ? 2 : 3]);
     if (rotation != 0) corner = sbri_rotate_yaw(corner, rotation);
-    outline[k] = sbri_headed(state, sbri_scale(corner, scale));
+    outline[k] = sbri_body_to_world(state, sbri_scale(corner, scale));
   }
 }
 
-void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+void sbri_set_sole_on_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 *position, sbf_vec3 *normal) {
   ground_spot spot;
   sbf_vec3 corners[4];
@@ -126,7 +126,7 @@ static int quality(
   return 2;
 }
 
-bool sbri_stands(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+bool sbri_can_stand(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 position, bool is_good) {
   footing f = {.level = level_of(rig, state)};
   ground_spot spot;
@@ -134,7 +134,7 @@ bool sbri_stands(const sbri_rig *rig, const sbri_gait_state *state, const sbri_g
   return quality(rig, input, &f, position, &spot) >= (is_good ? 2 : 1);
 }
 
-bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+bool sbri_find_foothold(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *position, sbf_vec3 *normal) {
   footing f = {.level = level_of(rig, state)};
   find_corners(rig, state, input->scale, leg, f.corners, f.outline);
@@ -145,7 +145,7 @@ bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_
       sbri_sub(wanted, state->feet[leg].planted ? state->feet[leg].ground : state->feet[leg].step.from);
   direction.y = 0;
   float length = sbri_length(direction);
-  direction = sbri_normalize(direction, sbri_headed(state, sbri_vec3(0, 0, 1)));
+  direction = sbri_normalize(direction, sbri_body_to_world(state, sbri_vec3(0, 0, 1)));
   /* Candidates along the path, nearer and farther, then back to the start. */
   for (int k = 1; best < 2 && k <= 6; k++) {
     float offset = step * (float)((k + 1) / 2) * (k % 2 ? -1.0f : 1.0f);

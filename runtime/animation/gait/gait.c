@@ -11,16 +11,16 @@
 
 static const float SMOOTHING_S = 0.18f; /* smoothing time of commands, s */
 static const float DISPLACED_S = 0.1f;  /* smoothing time of the speed of host displacements, s */
-static const float ACCELERATES = 0.2f;  /* maximum acceleration, in reaches per squared duration of a step */
+static const float ACCELERATION = 0.2f; /* maximum acceleration, in reaches per squared duration of a step */
 static const float BRISK_S = 0.4f;      /* on level ground, minimum duration of a step in this formula: large
                                            bodies would take seconds to accelerate */
-static const float STILL =
+static const float STILL_SPEED =
     0.004f; /* speed below which the character stands still, m/s and rad/s per metre of leg */
-static const float LONG_S = 1;       /* maximum counted time of standing, s */
-static const float SLOWS_S = 0.05f;  /* time constant for slowing down while feet are at their reach, s */
-static const float WAITS_S = 0.1f;   /* wait for balance after which the body slows down, s */
-static const float BALANCE_S = 0.2f; /* further wait after which it stands, s */
-static const float HURRY_S = 0.12f;  /* time constant for regaining speed after a wait, s */
+static const float MAX_STANDING_S = 1; /* maximum counted time of standing, s */
+static const float SLOWING_S = 0.05f;  /* time constant for slowing down while feet are at their reach, s */
+static const float TOLERATED_WAIT_S = 0.1f; /* wait for balance after which the body slows down, s */
+static const float BALANCE_S = 0.2f;        /* further wait after which it stands, s */
+static const float RECOVERY_S = 0.12f;      /* time constant for regaining speed after a wait, s */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
   size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tails.bone_count +
@@ -46,12 +46,12 @@ void sbri_gait_reset(
   state->motion.position = position;
   state->motion.heading = sbri_wrap_angle(heading);
   sbri_sincos(state->motion.heading, &state->motion.heading_sine, &state->motion.heading_cosine);
-  state->pace.standing_s = 1;
+  state->stepping.standing_s = 1;
   SBF_ASSERT(rig->leg_count <= SBRI_MAX_LEGS);
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tails.bone_count;
-  state->pace.speed_fraction = state->pace.step_limit = 1;
-  state->pace.since_lift_m = 1e6f; /* the first step does not wait */
+  state->stepping.speed_fraction = state->stepping.step_limit = 1;
+  state->stepping.since_lift_m = 1e6f; /* the first step does not wait */
   sbri_motion_reset(rig, state, input);
   sbri_body_stand(rig, state, input);
 }
@@ -72,15 +72,15 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     }
   for (uint32_t i = 0; i < rig->leg_count; i++)
     state->feet[i].hip = sbri_scale(rig->bones.rest[rig->legs[i].upper].position, input->scale);
-  state->balance.stand = sbri_support_stand(rig);
-  sbf_vec3 stands = sbri_headed(state, sbri_scale(state->balance.stand, input->scale));
+  state->balance.stand = sbri_standing_offset(rig);
+  sbf_vec3 stands = sbri_body_to_world(state, sbri_scale(state->balance.stand, input->scale));
   state->balance.sway_x = (sbri_lag){stands.x, 0}, state->balance.sway_z = (sbri_lag){stands.z, 0};
   state->posture.root = sbri_body_stance(rig, state, input).root;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_put_down(rig, state, input, i);
   sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   store_stance(state, &stance);
   state->posture.rise = 0;
-  sbri_fall_note_level(rig, state, input);
+  sbri_fall_store_level(rig, state, input);
   sbri_tails_reset(rig, state, input, &stance);
 }
 
@@ -92,23 +92,24 @@ typedef struct velocity_change {
 static velocity_change limited_change(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float approach = 1 - sbri_exp(-input->tick_s / SMOOTHING_S), fraction = 1;
-  float ahead = (state->pace.step_limit * input->forward - state->motion.forward) * approach;
-  float aside = (state->pace.step_limit * input->sideways - state->motion.sideways) * approach;
-  float turn = (state->pace.step_limit * input->turn - state->motion.turn) * approach;
+  float ahead = (state->stepping.step_limit * input->forward - state->motion.forward) * approach;
+  float aside = (state->stepping.step_limit * input->sideways - state->motion.sideways) * approach;
+  float turn = (state->stepping.step_limit * input->turn - state->motion.turn) * approach;
   if (rig->leg_count) { /* limited by the fastest home */
-    float step_s = rig->gait->step_duration, round = turn * rig->stand.spread * input->scale;
-    float brisk_s = step_s > BRISK_S && sbri_stands_level(rig, state, input->scale) ? BRISK_S : step_s;
-    float max = ACCELERATES * rig->stand.reach * input->scale * input->tick_s / (step_s * brisk_s);
-    float change = sqrtf(ahead * ahead + aside * aside + round * round);
+    float step_s = rig->gait->step_duration, turn_speed = turn * rig->stand.spread * input->scale;
+    float brisk_s = step_s > BRISK_S && sbri_are_feet_level(rig, state, input->scale) ? BRISK_S : step_s;
+    float max = ACCELERATION * rig->stand.reach * input->scale * input->tick_s / (step_s * brisk_s);
+    float change = sqrtf(ahead * ahead + aside * aside + turn_speed * turn_speed);
     fraction = change > max ? max / change : 1;
   }
   return (velocity_change){fraction * ahead, fraction * aside, fraction * turn};
 }
 
-float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_input *input, float radius_m) {
+float sbri_gait_max_speed_change(
+    const sbri_rig *rig, const void *memory, const sbri_gait_input *input, float radius_m) {
   velocity_change change = limited_change(rig, memory, input);
-  float round = change.turn * radius_m;
-  return sqrtf(change.ahead * change.ahead + change.aside * change.aside + round * round);
+  float turn_speed = change.turn * radius_m;
+  return sqrtf(change.ahead * change.ahead + change.aside * change.aside + turn_speed * turn_speed);
 }
 
 static bool is_displaced(const sbri_gait_input *input) {
@@ -132,13 +133,13 @@ static void move_body(
  * swing. */
 static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float blend = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
-  sbf_vec3 speed = sbri_scale(sbri_unheaded(state, input->displacement), h), shift = input->displacement;
+  sbf_vec3 speed = sbri_scale(sbri_world_to_body(state, input->displacement), h), shift = input->displacement;
   if (!sbri_is_afloat(rig)) shift.y = 0;
   state->motion.forward += (speed.z - state->motion.forward) * blend;
   state->motion.sideways += (speed.x - state->motion.sideways) * blend;
   state->motion.turn += (h * input->rotation - state->motion.turn) * blend;
-  state->pace.standing_s = 0;
-  state->pace.speed_fraction = 1;
+  state->stepping.standing_s = 0;
+  state->stepping.speed_fraction = 1;
   state->displaced = 1;
   move_body(rig, state, input, shift, input->rotation);
   return input->rotation;
@@ -153,10 +154,10 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   state->displaced = 0;
   if (sbri_is_afloat(rig)) {
     sbf_vec3 direction, from = state->motion.position;
-    float round = sbri_afloat_move(rig, state, input, &direction);
-    sbri_walls_resolve(rig, state, input, from, round);
+    float turn_speed = sbri_afloat_move(rig, state, input, &direction);
+    sbri_walls_resolve(rig, state, input, from, turn_speed);
     sbri_motion_tick(rig, state, input, direction);
-    return round;
+    return turn_speed;
   }
   velocity_change change = limited_change(rig, state, input);
   state->motion.forward += change.ahead;
@@ -164,24 +165,25 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   state->motion.turn += change.turn;
   float speed =
       sqrtf(state->motion.forward * state->motion.forward + state->motion.sideways * state->motion.sideways);
-  if (!wanted && speed < STILL * input->scale && fabsf(state->motion.turn) < STILL) {
+  if (!wanted && speed < STILL_SPEED * input->scale && fabsf(state->motion.turn) < STILL_SPEED) {
     state->motion.forward = state->motion.sideways = state->motion.turn = 0;
-    if (state->pace.standing_s < LONG_S)
-      state->pace.standing_s += input->tick_s; /* everything is at rest then */
+    if (state->stepping.standing_s < MAX_STANDING_S)
+      state->stepping.standing_s += input->tick_s; /* everything is at rest then */
   } else {
-    state->pace.standing_s = 0;
+    state->stepping.standing_s = 0;
   }
-  float lasting = 1,
-        max = rig->leg_count && !input->keeps_rest_pose ? sbri_pace_of(rig, state, input, &lasting) : 1;
-  float balanced =
-      1 - (state->pace.waiting_s - WAITS_S) / BALANCE_S; /* leaves the next foot time for the body to lean */
-  if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
-  float speed_fraction = lasting < max ? lasting : max,
-        in_s = speed_fraction < state->pace.speed_fraction ? SLOWS_S : HURRY_S;
-  state->pace.speed_fraction +=
-      (speed_fraction - state->pace.speed_fraction) * (1 - sbri_exp(-input->tick_s / in_s));
-  if (state->pace.speed_fraction > max) state->pace.speed_fraction = max;
-  float h = input->tick_s * state->pace.speed_fraction * sbri_hop_speed_fraction(rig, state, input),
+  float sustainable = 1, max = rig->leg_count && !input->keeps_rest_pose
+                                   ? sbri_max_speed_fraction(rig, state, input, &sustainable)
+                                   : 1;
+  float balanced = 1 - (state->stepping.waiting_s - TOLERATED_WAIT_S) /
+                           BALANCE_S; /* leaves the next foot time for the body to lean */
+  if (balanced < sustainable) sustainable = balanced > 0 ? balanced : 0;
+  float speed_fraction = sustainable < max ? sustainable : max,
+        in_s = speed_fraction < state->stepping.speed_fraction ? SLOWING_S : RECOVERY_S;
+  state->stepping.speed_fraction +=
+      (speed_fraction - state->stepping.speed_fraction) * (1 - sbri_exp(-input->tick_s / in_s));
+  if (state->stepping.speed_fraction > max) state->stepping.speed_fraction = max;
+  float h = input->tick_s * state->stepping.speed_fraction * sbri_hop_speed_fraction(rig, state, input),
         turned = state->motion.turn * h;
   sbf_vec3 step = sbri_scale(sbri_rotate_yaw(sbri_body_velocity(state), 0.5f * turned), h);
   move_body(rig, state, input, step, turned);
@@ -198,7 +200,7 @@ static void update_head(const sbri_rig *rig, sbri_gait_state *state, const sbri_
 }
 
 /* Centre of mass without lean: the middle of the homes if masses are unknown. */
-static void find_center(
+static void update_center(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, const sbr_transform *pose) {
   sbf_vec3 center = {0, 0, 0};
   if (sbri_rig_center(rig, pose, input->scale, &center)) {
@@ -215,7 +217,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     sbri_gait_event *events, uint32_t capacity) {
   sbri_gait_state *state = memory;
   uint32_t count = 0;
-  sbri_follow_surfaces(rig, state, input);
+  sbri_move_with_surfaces(rig, state, input);
   float turned = sbri_body_move(rig, state, input);
   sbri_clips_tick(rig, state, input->tick_s);
   for (uint32_t i = 0; turned != 0 && i < rig->leg_count; i++) {
@@ -233,13 +235,13 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     count = sbri_feet_tick(rig, state, input, &stance, events, capacity);
   else
     stance = sbri_body_stance(rig, state, input);
-  if (!in_air) sbri_fall_note_level(rig, state, input);
+  if (!in_air) sbri_fall_store_level(rig, state, input);
   update_head(rig, state, input);
   sbri_tails_tick(rig, state, input, &stance, turned);
   state->posture.rise = (stance.root.position.y - state->posture.root.position.y) / input->tick_s;
   store_stance(state, &stance);
   sbri_body_pose(rig, state, input, SBRI_ADVANCE_TICK, pose);
-  find_center(rig, state, input, pose);
+  update_center(rig, state, input, pose);
   return count;
 }
 

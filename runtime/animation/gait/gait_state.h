@@ -78,8 +78,8 @@ typedef struct sbri_gait_motion {
   float forward, sideways, turn; /* smoothed, m/s and rad/s */
 } sbri_gait_motion;
 
-/* How fast the feet let the body go, and which of them steps next. */
-typedef struct sbri_gait_pace {
+/* Selection of the foot that steps next, and the speed that the feet allow. */
+typedef struct sbri_gait_stepping {
   float speed_fraction; /* speed fraction that the feet allow, 0 to 1 */
   float standing_s;     /* time since it stopped moving, s; 0 while moving */
   float step_limit;     /* speed fraction for which its steps have time, 0 to 1 */
@@ -92,7 +92,7 @@ typedef struct sbri_gait_pace {
   uint32_t quick;       /* 1: on level ground, and feet step without regard to balance */
   uint32_t pivot_leg;   /* 1-based leg that the body turns about; 0: none */
   uint32_t next_leg;    /* 1-based leg that will lift next, towards whose support the body leans; 0: none */
-} sbri_gait_pace;
+} sbri_gait_stepping;
 
 /* The body over its feet. */
 typedef struct sbri_gait_balance {
@@ -130,7 +130,7 @@ typedef struct sbri_gait_walk {
 
 typedef struct sbri_gait_state {
   sbri_gait_motion motion;
-  sbri_gait_pace pace;
+  sbri_gait_stepping stepping;
   sbri_gait_balance balance;
   sbri_gait_posture posture;
   sbri_gait_fall fall;
@@ -184,11 +184,11 @@ static inline sbri_bone_follower *sbri_bone_followers(const sbri_rig *rig, sbri_
 }
 
 /* Rotates v from body to world heading; and back. */
-static inline sbf_vec3 sbri_headed(const sbri_gait_state *state, sbf_vec3 v) {
+static inline sbf_vec3 sbri_body_to_world(const sbri_gait_state *state, sbf_vec3 v) {
   float s = state->motion.heading_sine, c = state->motion.heading_cosine;
   return sbri_vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
 }
-static inline sbf_vec3 sbri_unheaded(const sbri_gait_state *state, sbf_vec3 v) {
+static inline sbf_vec3 sbri_world_to_body(const sbri_gait_state *state, sbf_vec3 v) {
   float s = state->motion.heading_sine, c = state->motion.heading_cosine;
   return sbri_vec3(c * v.x - s * v.z, v.y, c * v.z + s * v.x);
 }
@@ -211,11 +211,11 @@ float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b);
 bool sbri_walls_resolve(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 from, float turned);
 /* Moves the body and its feet with the surfaces that they stand on. */
-void sbri_follow_surfaces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+void sbri_move_with_surfaces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 /* One tick of free fall. Returns false if the character stands; on landing, `falls` becomes 0. */
 bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 /* Stores the level of the ground that it stands on. */
-void sbri_fall_note_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+void sbri_fall_store_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 
 /* ---- animation/gait/foot_faces.c: geometry of a foot on the ground ---- */
 
@@ -226,7 +226,7 @@ void sbri_foot_update_orientation(
 void sbri_foot_update_heading(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 
-/* ---- animation/gait/stride.c: how far feet go, and how fast ---- */
+/* ---- animation/gait/stride.c: range and speed of feet ---- */
 
 /* Hip height at the widest stride, as a fraction of the rest height. */
 #define SBRI_LOWERED 0.9f
@@ -234,16 +234,16 @@ void sbri_foot_update_heading(
 #define SBRI_WIDEST 1.7f
 
 /* Horizontal circle within which a foot can stand: centre relative to its home, and radius. */
-typedef struct sbri_roam {
+typedef struct sbri_foot_circle {
   sbf_vec3 center;
   float radius;
-} sbri_roam;
+} sbri_foot_circle;
 
 /* A foot's home position relative to the body (horizontal), its velocity over the ground, and its circle. */
 typedef struct sbri_home {
   sbf_vec3 arm, velocity;
   float speed;
-  sbri_roam roam;
+  sbri_foot_circle circle;
 } sbri_home;
 
 /* Stride parameters of a tick, from the speed. */
@@ -260,8 +260,8 @@ typedef struct sbri_stride {
   float max_half_m;  /* upper bound of half_m, mean over a stride */
   sbri_home homes[SBRI_MAX_LEGS];
 } sbri_stride;
-/* Whether the feet stand on level ground and go to it. */
-bool sbri_stands_level(const sbri_rig *rig, const sbri_gait_state *state, float scale);
+/* Whether planted feet and the targets of swinging feet are at about one height. */
+bool sbri_are_feet_level(const sbri_rig *rig, const sbri_gait_state *state, float scale);
 
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 
@@ -289,57 +289,57 @@ static inline sbf_vec3 sbri_ankle_at_home(
       sbri_add_scaled(sole, foot->normal, leg->home.ankle.y * scale), foot->frame.home_ankle_offset);
 }
 /* Circle within which a foot can stand at its present height. */
-sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 arm);
+sbri_foot_circle sbri_foot_circle_of(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, uint32_t leg, sbf_vec3 arm);
 /* Distance ahead of its home at which a foot that moves along `direction` (unit) lands; `half` is half its
  * stride. */
-float sbri_ahead(const sbri_roam *roam, sbf_vec3 direction, float half);
+float sbri_landing_distance(const sbri_foot_circle *circle, sbf_vec3 direction, float half);
 /* Distance of a planted foot from its home as a fraction of the allowed distance. */
-float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t leg);
+float sbri_home_distance_fraction(const sbri_gait_state *state, const sbri_home *home, uint32_t leg);
 /* Distance that a leg's hip can move along a horizontal unit direction before the planted foot is out of
  * reach. */
 float sbri_remaining_reach(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 direction);
 /* Speed fraction at which the stance feet stay within reach for the given time while a leg swings. */
-float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, float in_s);
-/* Speed fraction that keeps every planted foot within reach; `lasting` receives the fraction at which they
- * stay there until the swinging feet land. */
-float sbri_pace_of(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting);
+float sbri_sustainable_fraction(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, uint32_t leg, float in_s);
+/* Speed fraction that keeps every planted foot within reach; `sustainable` receives the fraction at which
+ * they stay there until the swinging feet land. */
+float sbri_max_speed_fraction(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *sustainable);
 
 /* ---- animation/gait/footing.c: where a foot may stand ---- */
 
 /* Finds the best foothold near `wanted`; false if there is none and the foot should stay. */
-bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+bool sbri_find_foothold(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *position, sbf_vec3 *normal);
 
 /* Whether a foot can stand, or can stand well, at a position. */
-bool sbri_stands(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+bool sbri_can_stand(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 position, bool well);
-/* Puts a sole on the ground at `position`, tilted to the slope and not penetrating. */
-void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+/* Moves a sole onto the ground at `position` and tilts it to the slope, without penetration. */
+void sbri_set_sole_on_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 *position, sbf_vec3 *normal);
 
 /* ---- animation/gait/support.c: balance ---- */
 
 /* Whether the feet other than `lifted` (bits) support the body: its centre of mass is well inside their
  * support polygon, and still inside after moving by `direction`. */
-bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+bool sbri_is_supported(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 direction);
 /* Sway from `position`, horizontal, for which the feet other than `lifted` support the body. */
-sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+sbf_vec3 sbri_find_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 direction);
 
 /* Horizontal offset from the rest pose that puts the body over its feet, asset metres. */
-sbf_vec3 sbri_support_stand(const sbri_rig *rig);
+sbf_vec3 sbri_standing_offset(const sbri_rig *rig);
 
-/* ---- animation/gait/step_plan.c: a step before it goes ---- */
+/* ---- animation/gait/step_plan.c: height and timing of a step ---- */
 
 /* Plans the height and timing of a step. Motion that has begun is kept. */
 void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 /* Estimate of the duration that the knee needs for the planned step, at least `wanted_s`. */
-float sbri_step_time(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+float sbri_step_duration(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float wanted_s);
 
 /* ---- animation/gait/swing.c: the path of a foot through the air ---- */
@@ -350,7 +350,7 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
 bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg);
 
-/* ---- animation/gait/feet.c: who steps ---- */
+/* ---- animation/gait/feet.c: selection of the feet that step ---- */
 
 /* Puts a leg's foot down at its home. */
 void sbri_foot_put_down(
@@ -372,10 +372,10 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
 
 /* ---- animation/gait/gait.c ---- */
 
-/* Smooths the motion towards the command and moves the body, as fast as the feet allow. Returns the turn,
- * rad. */
+/* Smooths the motion towards the command and moves the body, at most at the speed that the feet allow.
+ * Returns the rotation, rad. */
 float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
-/* Puts every foot at its home, and body, tails and chains accordingly. */
+/* Puts every foot at its home, then the body, tails and chains above them. */
 void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 
 /* ---- animation/gait/body.c: the body over its feet ---- */
@@ -404,9 +404,9 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
 /* ---- animation/gait/clips.c ---- */
 
 void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s);
-/* Every bone relative to its parent before the gait: position in asset metres, rotation. */
 /* Whether a clip contributes to the pose. */
 bool sbri_clips_play(const sbri_gait_state *state);
+/* Writes every bone relative to its parent, before the gait: position in asset metres, rotation. */
 void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals);
 
 /* ---- animation/gait/walk_poses.c ---- */

@@ -14,7 +14,7 @@ float sbri_motion_speed(const sbri_rig *rig, const sbri_gait_state *state) {
   float up = sbri_is_afloat(rig) ? sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state)->up : 0;
   float level =
       state->motion.forward * state->motion.forward + state->motion.sideways * state->motion.sideways;
-  return sqrtf(level + up * up) * state->pace.speed_fraction;
+  return sqrtf(level + up * up) * state->stepping.speed_fraction;
 }
 
 sbf_quat sbri_motion_parent_rotation(

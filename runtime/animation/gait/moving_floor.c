@@ -45,7 +45,7 @@ static void shift_step(sbri_foot *foot, sbf_vec3 displacement) {
   foot->pole = sbri_add(foot->pole, displacement);
 }
 
-void sbri_follow_surfaces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+void sbri_move_with_surfaces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   if (!input->surroundings || !input->surroundings->colliders || !input->surroundings->colliders->is_moving)
     return;
   if (state->fall.is_falling || sbri_is_afloat(rig)) return;

@@ -124,7 +124,7 @@ static void pose_foot(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
 }
 
 /* A leg of one bone: it points at the foot's target. */
-static void pose_peg(
+static void pose_one_bone_leg(
     const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle, sbr_transform *pose) {
   sbf_vec3 hip = pose[leg->upper].position, down = sbri_vec3(0, -1, 0);
   sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), down);
@@ -198,7 +198,7 @@ static void limit_knee(const sbri_rig *rig, const sbri_gait_input *input, const 
   float target = 0, span = span_of(leg, pose);
   if (advance == SBRI_ADVANCE_TICK) {
     target = sbri_knee_angle(leg, input->scale, span);
-    bool is_swinging = !foot->planted && leg->home.carrier < 0; /* chains drag the legs on them */
+    bool is_swinging = !foot->planted && leg->home.chain_bone < 0; /* chains drag the legs on them */
     float angle = is_swinging ? sbri_knee_follow(foot, target, input->tick_s) : target;
     foot->knee.locked = angle != target ? angle : 0;
   }
@@ -250,7 +250,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   sbf_vec3 flat = sbri_ankle_over(leg, foot, sole, scale), ankle = flat;
   sbf_vec3 pole = foot->pole = pole_of(leg, &stance->root, scale, pose);
   if (leg->lower < 0) {
-    pose_peg(rig, leg, foot, ankle, pose);
+    pose_one_bone_leg(rig, leg, foot, ankle, pose);
     return;
   }
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));

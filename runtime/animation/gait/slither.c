@@ -52,7 +52,7 @@ static sbf_vec3 nose_position(const sbri_rig *rig, const sbri_gait_state *state,
   sbf_vec3 offset = sbri_scale(sbri_serpenoid(wave->heading_amplitude, phase, &mean), wavelength);
   sbf_vec3 nose = sbri_scale(rig->wave.joints[0], input->scale);
   sbf_vec3 at = sbri_vec3(nose.x + offset.x, 0, nose.z + offset.z + along);
-  sbf_vec3 headed = sbri_headed(state, at);
+  sbf_vec3 headed = sbri_body_to_world(state, at);
   return sbri_vec3(state->motion.position.x + headed.x, 0, state->motion.position.z + headed.z);
 }
 
@@ -190,7 +190,7 @@ static void lay_path(
     float ahead = spacing * (float)(AHEAD - i) - m->path_ahead;
     sbf_vec3 at = nose_position(rig, state, input, m->path_phase + ahead / cycle, 0);
     float turned = bend * mean * ahead;
-    sbf_vec3 moved = sbri_rotate_yaw(sbri_headed(state, sbri_vec3(0, 0, mean * ahead)), 0.5f * turned);
+    sbf_vec3 moved = sbri_rotate_yaw(sbri_body_to_world(state, sbri_vec3(0, 0, mean * ahead)), 0.5f * turned);
     at = sbri_add(sbri_rotate_yaw(sbri_sub(at, state->motion.position), turned), state->motion.position);
     points[i] = sbri_add(at, moved);
   }

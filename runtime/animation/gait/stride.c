@@ -7,36 +7,36 @@
 #include "animation/gait/gait_state.h"
 #include "shapes/ground.h"
 
-static const float USED = 0.75f;        /* fraction of a foot's range that a stride uses */
-static const float DEEPEST = 0.8f;      /* fraction of the circle of an upright body; bounds its lowering */
-static const float LEANING = 0.8f;      /* fraction of the hips' height that a leaning body keeps */
-static const float SURE = 1.0f;         /* fraction of the mean range that is always available */
-static const float STRIDE_S = 0.5f;     /* time over which the maximum stride is averaged */
-static const float STRETCH = 0.97f;     /* fraction of the full reach */
-static const float MIN = 0.05f;         /* fraction of a leg's length: minimum range of a foot */
-static const float PEG = 0.25f;         /* the same for a leg of one bone */
-static const float SLACK = 1.15f;       /* time from step to step, in steps */
-static const float LEAN_S = 0.12f;      /* time for the body to lean before a foot lifts off */
-static const float LEAN_TWO_S = 0.5f;   /* the same with two legs */
-static const float LEAN_SLOW_S = 0.36f; /* the same at low speed, where it keeps balance */
-static const float SLOW = 0.35f;        /* reaches per second: maximum speed with balance */
-static const float LONGEST = 1.35f;     /* maximum duration of a fast step relative to the usual one */
-static const float SHORTEST = 0.25f;    /* minimum duration of a step relative to the usual one */
-static const float MISSED =
+static const float RANGE_USED = 0.75f;    /* fraction of a foot's range that a stride uses */
+static const float MAX_LOWERING = 0.8f;   /* fraction of the circle of an upright body; bounds its lowering */
+static const float LEANING_HEIGHT = 0.8f; /* fraction of the hips' height that a leaning body keeps */
+static const float AVAILABLE_RANGE = 1.0f; /* fraction of the mean range that is always available */
+static const float STRIDE_S = 0.5f;        /* time over which the maximum stride is averaged */
+static const float MAX_REACH = 0.97f;      /* fraction of the full reach */
+static const float MIN_RANGE = 0.05f;      /* fraction of a leg's length: minimum range of a foot */
+static const float ONE_BONE_RANGE = 0.25f; /* the same for a leg of one bone */
+static const float STEP_INTERVAL = 1.15f;  /* time from step to step, in steps */
+static const float LEAN_S = 0.12f;         /* time for the body to lean before a foot lifts off */
+static const float LEAN_TWO_S = 0.5f;      /* the same with two legs */
+static const float LEAN_SLOW_S = 0.36f;    /* the same at low speed, where it keeps balance */
+static const float BALANCED_SPEED = 0.35f; /* reaches per second: maximum speed with balance */
+static const float MAX_DURATION = 1.35f;   /* maximum duration of a fast step relative to the usual one */
+static const float MIN_DURATION = 0.25f;   /* minimum duration of a step relative to the usual one */
+static const float SLOWING_ERROR =
     0.002f; /* fraction of the reach: distance of a sole from its target from which on the body slows down */
-static const float MISSES = 0.01f; /* additional distance at which it stops */
-static const float BRAKES =
+static const float STOPPING_ERROR = 0.01f; /* additional distance at which it stops */
+static const float BRAKING =
     1; /* reaches per squared duration of a step: deceleration for a foot at its reach */
-static const float QUICK_BRAKES = 0.5f; /* factor of that duration for a foot that is about to lift off */
-static const float GAIN = 0.06f;        /* reaches per duration of a step: speed gained in half a step */
-static const float BESIDE = 1.15f;      /* half soles: minimum distance of feet from the middle */
-static const uint32_t MANY_LEGS = 6;    /* number of legs from which on half of them suffice for balance */
-static const float LEVEL = 0.05f;       /* fraction of the reach: maximum height difference of level ground */
+static const float QUICK_BRAKING = 0.5f; /* factor of that duration for a foot that is about to lift off */
+static const float SPEED_GAIN = 0.06f;   /* reaches per duration of a step: speed gained in half a step */
+static const float MIN_NARROW = 1.15f;   /* half soles: minimum distance of feet from the middle */
+static const uint32_t MANY_LEGS = 6;     /* number of legs from which on half of them suffice for balance */
+static const float LEVEL = 0.05f; /* fraction of the reach: maximum height difference of level ground */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
-  sbf_vec3 v = sbri_headed(state, sbri_vec3(state->motion.sideways, 0, state->motion.forward));
-  if (state->pace.pivot_leg) { /* rotation about a foot moves the body */
-    sbf_vec3 arm = sbri_sub(state->motion.position, state->feet[state->pace.pivot_leg - 1].ground);
+  sbf_vec3 v = sbri_body_to_world(state, sbri_vec3(state->motion.sideways, 0, state->motion.forward));
+  if (state->stepping.pivot_leg) { /* rotation about a foot moves the body */
+    sbf_vec3 arm = sbri_sub(state->motion.position, state->feet[state->stepping.pivot_leg - 1].ground);
     v.x += state->motion.turn * arm.z, v.z -= state->motion.turn * arm.x;
   }
   return v;
@@ -45,12 +45,12 @@ sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
 /* Bipeds place each foot close to the middle, so that the body need not lean far to be above it. This applies
  * to forward motion only, because sideways the feet would collide. */
 static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, float x) {
-  if (rig->leg_count != 2 || rig->stand.has_pegs || state->pace.in_groups) return x;
+  if (rig->leg_count != 2 || rig->stand.has_one_bone_legs || state->stepping.in_groups) return x;
   float forward_square = state->motion.forward * state->motion.forward,
         sideways_square = state->motion.sideways * state->motion.sideways;
   float rotation_speed = state->motion.turn * rig->stand.spread,
         sum = forward_square + sideways_square + rotation_speed * rotation_speed;
-  float min = BESIDE * rig->legs[leg].sole.left;
+  float min = MIN_NARROW * rig->legs[leg].sole.left;
   if (sum <= 0 || fabsf(x) <= min) return x;
   float min_x = x < 0 ? -min : min;
   return x + forward_square / sum * (min_x - x);
@@ -59,24 +59,24 @@ static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_
 sbf_vec3 sbri_home_arm(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbf_vec3 home = rig->legs[leg].home.position;
-  if (rig->legs[leg].home.carrier >= 0) {
+  if (rig->legs[leg].home.chain_bone >= 0) {
     const sbr_transform *bone =
-        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[rig->legs[leg].home.carrier].frame;
+        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[rig->legs[leg].home.chain_bone].frame;
     home = sbri_rotate(bone->rotation, sbri_scale(rig->legs[leg].home.in_bone, input->scale));
     home = sbri_sub(sbri_add(bone->position, home), state->motion.position);
     return sbri_vec3(home.x, 0, home.z);
   }
   float width = rig->gait->step_width;
-  if (state->pace.standing_s == 0 && width > 0 && home.x != 0) home.x = home.x < 0 ? -width : width;
-  if (state->pace.standing_s == 0 && width == 0) home.x = narrowed(rig, state, leg, home.x);
+  if (state->stepping.standing_s == 0 && width > 0 && home.x != 0) home.x = home.x < 0 ? -width : width;
+  if (state->stepping.standing_s == 0 && width == 0) home.x = narrowed(rig, state, leg, home.x);
   home.y = 0;
-  return sbri_headed(state, sbri_scale(home, input->scale));
+  return sbri_body_to_world(state, sbri_scale(home, input->scale));
 }
 
 sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm) {
-  int32_t carrier = rig->legs[leg].home.carrier;
-  if (carrier >= 0) {
-    sbf_vec3 v = sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[carrier].velocity;
+  int32_t chain_bone = rig->legs[leg].home.chain_bone;
+  if (chain_bone >= 0) {
+    sbf_vec3 v = sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[chain_bone].velocity;
     return sbri_vec3(v.x, 0, v.z);
   }
   sbf_vec3 v = sbri_body_velocity(state);
@@ -103,9 +103,9 @@ float sbri_wanted_speed(
 sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, const sbr_transform *root) {
   const sbri_leg *l = &rig->legs[leg];
-  if (l->home.carrier >= 0) {
+  if (l->home.chain_bone >= 0) {
     const sbr_transform *bone =
-        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[l->home.carrier].frame;
+        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[l->home.chain_bone].frame;
     sbf_vec3 own = sbri_scale(rig->bones.rest_local[l->upper].position, input->scale);
     return sbri_add(bone->position, sbri_rotate(bone->rotation, own));
   }
@@ -127,10 +127,10 @@ static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, floa
 static float reachable_circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 from, float lowered, sbf_vec3 *offset) {
   const sbri_leg *l = &rig->legs[leg];
-  float reach = STRETCH * (1 - l->length.soft_reach) * l->length.reach * input->scale;
+  float reach = MAX_REACH * (1 - l->length.soft_reach) * l->length.reach * input->scale;
   float upright = state->posture.lowered - from.y, level = reach * reach - upright * upright;
   float height = -lowered * from.y; /* the body is lowered for its feet */
-  float min = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
+  float min = upright - MAX_LOWERING * (level > 0 ? sqrtf(level) : 0);
   if (min > lowered * upright) min = lowered * upright;
   if (height < min) height = min;
   if (height < upright - state->balance.clearance.value)
@@ -142,36 +142,36 @@ static float reachable_circle(const sbri_rig *rig, const sbri_gait_state *state,
 }
 
 /* Distance from a point in a circle to its edge along a unit direction. */
-static float to_edge(sbf_vec3 offset, float radius, sbf_vec3 direction) {
+static float distance_to_edge(sbf_vec3 offset, float radius, sbf_vec3 direction) {
   float along = sbri_dot(offset, direction),
         square = along * along - sbri_dot(offset, offset) + radius * radius;
   return (square > 0 ? sqrtf(square) : 0) - along;
 }
 
-sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 arm) {
+sbri_foot_circle sbri_foot_circle_of(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, uint32_t leg, sbf_vec3 arm) {
   const sbri_leg *l = &rig->legs[leg];
-  sbri_roam roam;
+  sbri_foot_circle circle;
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, sbri_add(state->motion.position, arm), true);
-  float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.center);
-  float length = (l->length.upper + l->length.lower) * input->scale, offset = sbri_length(roam.center);
-  if (l->lower < 0) radius = offset + PEG * length;
-  roam.radius = radius < offset + MIN * length ? offset + MIN * length : radius;
-  return roam;
+  float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &circle.center);
+  float length = (l->length.upper + l->length.lower) * input->scale, offset = sbri_length(circle.center);
+  if (l->lower < 0) radius = offset + ONE_BONE_RANGE * length;
+  circle.radius = radius < offset + MIN_RANGE * length ? offset + MIN_RANGE * length : radius;
+  return circle;
 }
 
 /* Maximum distance of a foot ahead of its home and behind, m. */
-typedef struct span {
+typedef struct foot_range {
   float ahead, behind;
-} span;
-static span span_of(const sbri_roam *roam, sbf_vec3 direction) {
-  return (span){USED * to_edge(roam->center, roam->radius, direction),
-      USED * to_edge(roam->center, roam->radius, sbri_scale(direction, -1))};
+} foot_range;
+static foot_range foot_range_of(const sbri_foot_circle *circle, sbf_vec3 direction) {
+  return (foot_range){RANGE_USED * distance_to_edge(circle->center, circle->radius, direction),
+      RANGE_USED * distance_to_edge(circle->center, circle->radius, sbri_scale(direction, -1))};
 }
 
-float sbri_ahead(const sbri_roam *roam, sbf_vec3 direction, float half) {
-  span max = span_of(roam, direction);
+float sbri_landing_distance(const sbri_foot_circle *circle, sbf_vec3 direction, float half) {
+  foot_range max = foot_range_of(circle, direction);
   float middle = 0.5f * (max.ahead - max.behind), widest = 0.5f * (max.ahead + max.behind);
   if (half >= widest) return max.ahead;
   float ahead = half + middle * sbri_smooth(2 * half / widest - 1); /* wide strides are centred at the hip */
@@ -181,7 +181,7 @@ float sbri_ahead(const sbri_roam *roam, sbf_vec3 direction, float half) {
 
 /* Velocity of each leg's home and the range of its foot. Returns half of the widest stride that all legs can
  * take, m. */
-static float check_homes(
+static float compute_homes(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbri_stride *s) {
   float max = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -189,17 +189,17 @@ static float check_homes(
     home->arm = sbri_home_arm(rig, state, input, i);
     home->velocity = sbri_home_velocity(rig, state, i, home->arm);
     home->speed = sbri_length(home->velocity);
-    home->roam = sbri_roam_of(rig, state, input, i, home->arm);
+    home->circle = sbri_foot_circle_of(rig, state, input, i, home->arm);
     s->speed = home->speed > s->speed ? home->speed : s->speed;
-    sbf_vec3 direction = sbri_normalize(home->velocity, sbri_headed(state, sbri_vec3(0, 0, 1)));
-    span own = span_of(&home->roam, direction);
+    sbf_vec3 direction = sbri_normalize(home->velocity, sbri_body_to_world(state, sbri_vec3(0, 0, 1)));
+    foot_range own = foot_range_of(&home->circle, direction);
     float half = 0.5f * (own.ahead + own.behind);
     max = i == 0 || half < max ? half : max;
   }
   return max;
 }
 
-bool sbri_stands_level(const sbri_rig *rig, const sbri_gait_state *state, float scale) {
+bool sbri_are_feet_level(const sbri_rig *rig, const sbri_gait_state *state, float scale) {
   float low = 1e30f, high = -1e30f;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     float y = state->feet[i].planted ? state->feet[i].ground.y : state->feet[i].step.to.y;
@@ -214,45 +214,48 @@ static bool is_level(const sbri_rig *rig, const sbri_gait_state *state, const sb
   if (sbri_ground_is_flat(input->ground, &unused)) return true;
   float reach = rig->stand.reach * input->scale, level = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) level += state->feet[i].ground.y / (float)rig->leg_count;
-  sbf_vec3 direction = sbri_normalize(sbri_body_velocity(state), sbri_headed(state, sbri_vec3(0, 0, 1)));
+  sbf_vec3 direction =
+      sbri_normalize(sbri_body_velocity(state), sbri_body_to_world(state, sbri_vec3(0, 0, 1)));
   for (int k = -1; k <= 2; k++) {
     sbf_vec3 at = sbri_add_scaled(state->motion.position, direction, (float)k * reach);
     if (fabsf(sbri_ground_below(input, at, NULL).y - level) > LEVEL * reach) return false;
   }
-  return sbri_stands_level(rig, state, input->scale);
+  return sbri_are_feet_level(rig, state, input->scale);
 }
 
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stride s = {0};
-  float max = check_homes(rig, state, input, &s);
-  if (state->pace.max_half_m > 0)
-    max = state->pace.max_half_m + (max - state->pace.max_half_m) * input->tick_s / STRIDE_S;
+  float max = compute_homes(rig, state, input, &s);
+  if (state->stepping.max_half_m > 0)
+    max = state->stepping.max_half_m + (max - state->stepping.max_half_m) * input->tick_s / STRIDE_S;
   s.max_half_m = max;
-  max *= SURE;
-  float usual = rig->gait->step_duration, needed_s = state->pace.step_s > usual ? state->pace.step_s : usual;
+  max *= AVAILABLE_RANGE;
+  float usual = rig->gait->step_duration,
+        needed_s = state->stepping.step_s > usual ? state->stepping.step_s : usual;
   float groups = (float)(rig->stand.group_count > 1 ? rig->stand.group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
   float wanted = sbri_wanted_speed(rig, state, input, s.homes), fastest = wanted > s.speed ? wanted : s.speed;
-  bool quick = fastest > SLOW * rig->stand.reach * input->scale, slow = !quick && rig->leg_count < MANY_LEGS;
+  bool quick = fastest > BALANCED_SPEED * rig->stand.reach * input->scale,
+       slow = !quick && rig->leg_count < MANY_LEGS;
   float lean_two_s = slow ? LEAN_SLOW_S : LEAN_TWO_S;
   float lean_s = rig->leg_count == 2 ? lean_two_s : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
-  float turn_time_s = 0.5f * (turns - 1) * (SLACK * needed_s + lean_s),
+  float turn_time_s = 0.5f * (turns - 1) * (STEP_INTERVAL * needed_s + lean_s),
         sequential_half = turn_time_s * s.speed;
   s.in_groups = (turns > groups || rig->leg_count == 2) &&
-                turn_time_s * fastest > (state->pace.in_groups ? 0.62f : 0.74f) * max;
+                turn_time_s * fastest > (state->stepping.in_groups ? 0.62f : 0.74f) * max;
   s.balanced = slow;
   s.running = quick && rig->leg_count >= MANY_LEGS && !rig->chains.count &&
-              sbri_stands_level(rig, state, input->scale);
+              sbri_are_feet_level(rig, state, input->scale);
   if (slow) s.in_groups = false;
-  if (rig->stand.has_pegs) s.in_groups = true; /* rigid legs cannot follow a leaning body */
+  if (rig->stand.has_one_bone_legs) s.in_groups = true; /* rigid legs cannot follow a leaning body */
   float step_s = usual < 0.4f ? usual : 0.4f,
-        soon = s.speed + GAIN * rig->stand.reach * input->scale / step_s;
-  float aimed = state->pace.step_limit * fastest;
+        soon = s.speed + SPEED_GAIN * rig->stand.reach * input->scale / step_s;
+  float aimed = state->stepping.step_limit * fastest;
   if (soon > aimed) soon = s.speed > aimed ? s.speed : aimed;
   s.level = is_level(rig, state, input);
   if (!s.level) soon = s.speed;
   float half_per_second =
-      0.5f * s.speed * (groups - 1) * SLACK; /* half a stride per second of a step's duration */
+      0.5f * s.speed * (groups - 1) * STEP_INTERVAL; /* half a stride per second of a step's duration */
   s.available_s = half_per_second > 0 ? max / half_per_second : 1e6f;
   s.duration_s = usual;
   float needed = sequential_half;
@@ -261,12 +264,12 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
     if (half_per_step > 0) s.available_s = max / half_per_step - lean_s;
     if (needed > max) needed = max;
   } else if (s.in_groups || needed > max) { /* uses all available time: quick steps are harder */
-    float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
-    float widest =
-        SBRI_WIDEST * rig->stand.reach * input->scale / (1 + (groups - 1) * SLACK); /* during a step */
+    float longest = MAX_DURATION * usual > needed_s ? MAX_DURATION * usual : needed_s;
+    float widest = SBRI_WIDEST * rig->stand.reach * input->scale /
+                   (1 + (groups - 1) * STEP_INTERVAL); /* during a step */
     if (s.level && longest * soon > widest) longest = widest / soon;
     float speed_ratio = s.speed > 0 ? soon / s.speed : 1;
-    s.duration_s = sbri_clamp(0.9f * s.available_s / speed_ratio, SHORTEST * usual, longest);
+    s.duration_s = sbri_clamp(0.9f * s.available_s / speed_ratio, MIN_DURATION * usual, longest);
     needed = half_per_second * speed_ratio * s.duration_s;
     if (needed > max) needed = max;
   }
@@ -276,20 +279,20 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   return s;
 }
 
-float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t leg) {
+float sbri_home_distance_fraction(const sbri_gait_state *state, const sbri_home *home, uint32_t leg) {
   sbf_vec3 offset = sbri_sub(state->feet[leg].ground, sbri_add(state->motion.position, home->arm));
   offset.y = 0;
   float distance = sbri_length(offset);
   if (distance <= 0) return 0;
-  float roam = to_edge(home->roam.center, home->roam.radius, sbri_scale(offset, 1 / distance));
-  return distance / (roam > 1e-6f ? roam : 1e-6f);
+  float circle = distance_to_edge(home->circle.center, home->circle.radius, sbri_scale(offset, 1 / distance));
+  return distance / (circle > 1e-6f ? circle : 1e-6f);
 }
 
 /* The circle of allowed positions of a leg's foot. */
-static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state,
+static sbri_foot_circle stance_circle(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, uint32_t leg, sbf_vec3 arm, float lowered) {
   const sbri_leg *l = &rig->legs[leg];
-  sbri_roam stance;
+  sbri_foot_circle stance;
   sbf_vec3 home = sbri_add(state->motion.position, arm);
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, state->feet[leg].ground, false);
@@ -297,16 +300,16 @@ static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state
   sbf_vec3 offset = from_hip(rig, state, input->scale, leg, hip, home, true);
   offset.y = 0;
   float length = (l->length.upper + l->length.lower) * input->scale, rest = sbri_length(offset);
-  if (l->lower < 0) radius = rest + PEG * length;
-  stance.radius = radius < rest + MIN * length ? rest + MIN * length : radius;
+  if (l->lower < 0) radius = rest + ONE_BONE_RANGE * length;
+  stance.radius = radius < rest + MIN_RANGE * length ? rest + MIN_RANGE * length : radius;
   return stance;
 }
 
 float sbri_remaining_reach(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 direction) {
   sbf_vec3 arm = sbri_home_arm(rig, state, input, leg);
-  sbri_roam stance = stance_circle(rig, state, input, leg, arm, LEANING);
-  return to_edge(stance.center, stance.radius, sbri_scale(direction, -1));
+  sbri_foot_circle stance = stance_circle(rig, state, input, leg, arm, LEANING_HEIGHT);
+  return distance_to_edge(stance.center, stance.radius, sbri_scale(direction, -1));
 }
 
 /* Remaining travel of a planted leg until the end of its reach, if its home moves at `speed`; m. */
@@ -316,22 +319,22 @@ static float remaining_travel(const sbri_rig *rig, const sbri_gait_state *state,
   *speed = sbri_length(v);
   if (*speed <= 0) return 0;
   sbf_vec3 displacement = sbri_scale(v, 1 / *speed);
-  sbri_roam stance = stance_circle(rig, state, input, leg, arm, SBRI_LOWERED);
-  float left = to_edge(stance.center, stance.radius, sbri_scale(displacement, -1));
+  sbri_foot_circle stance = stance_circle(rig, state, input, leg, arm, SBRI_LOWERED);
+  float left = distance_to_edge(stance.center, stance.radius, sbri_scale(displacement, -1));
   float rotation =
       left > 0 ? sbri_clamp(state->motion.turn * left / *speed, -2, 2) : 0; /* rotation until then */
   if (rotation != 0)
-    left =
-        to_edge(stance.center, stance.radius, sbri_scale(sbri_rotate_yaw(displacement, 0.5f * rotation), -1));
+    left = distance_to_edge(
+        stance.center, stance.radius, sbri_scale(sbri_rotate_yaw(displacement, 0.5f * rotation), -1));
   return left > 0 ? left : 0;
 }
 
-float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, float in_s) {
+float sbri_sustainable_fraction(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, uint32_t leg, float in_s) {
   float min = 1, speed;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    if ((state->pace.in_groups || state->pace.quick) &&
+    if ((state->stepping.in_groups || state->stepping.quick) &&
         rig->legs[i].group == rig->legs[leg].group) { /* this foot steps too, if it is behind */
       sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
       sbf_vec3 behind = sbri_sub(sbri_add(state->motion.position, arm), state->feet[i].ground);
@@ -343,8 +346,8 @@ float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri
   return min;
 }
 
-float sbri_pace_of(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting) {
+float sbri_max_speed_fraction(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *sustainable) {
   float min = 1, speed, in_air_s = 0, step_s = rig->leg_count ? rig->gait->step_duration : 1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     float left_s =
@@ -352,18 +355,19 @@ float sbri_pace_of(
     in_air_s = left_s > in_air_s ? left_s : in_air_s;
   }
   /* Feet that step together lift off as soon as the others have landed. */
-  float brakes_s = state->pace.quick ? QUICK_BRAKES * step_s : step_s;
-  float brakes = BRAKES * rig->stand.reach * input->scale / (brakes_s * brakes_s);
-  *lasting = 1;
+  float braking_s = state->stepping.quick ? QUICK_BRAKING * step_s : step_s;
+  float braking = BRAKING * rig->stand.reach * input->scale / (braking_s * braking_s);
+  *sustainable = 1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
     float left = remaining_travel(rig, state, input, i, &speed), missed = state->feet[i].reach_error;
     if (speed <= 0) continue;
     missed /= rig->stand.reach * input->scale;
-    if (missed > MISSED && 1 - (missed - MISSED) / MISSES < min) min = 1 - (missed - MISSED) / MISSES;
-    float max = sqrtf(2 * brakes * left);
+    if (missed > SLOWING_ERROR && 1 - (missed - SLOWING_ERROR) / STOPPING_ERROR < min)
+      min = 1 - (missed - SLOWING_ERROR) / STOPPING_ERROR;
+    float max = sqrtf(2 * braking * left);
     if (max < min * speed) min = max / speed;
-    if (left < *lasting * speed * in_air_s) *lasting = left / (speed * in_air_s);
+    if (left < *sustainable * speed * in_air_s) *sustainable = left / (speed * in_air_s);
   }
   return min > 0 ? min : 0;
 }

@@ -78,10 +78,11 @@ static float distance_from_range(float coordinate, float low, float high, float 
   return sbri_clamp(coordinate, low, high) - coordinate;
 }
 
-sbf_vec3 sbri_support_stand(const sbri_rig *rig) {
+sbf_vec3 sbri_standing_offset(const sbri_rig *rig) {
   float low[2] = {1e30f, 1e30f}, high[2] = {-1e30f, -1e30f}, margin = NEEDED * rig->stand.reach;
   sbf_vec3 center;
-  bool can_lean = rig->leg_count && !rig->stand.has_pegs && sbri_rig_center(rig, rig->bones.rest, 1, &center);
+  bool can_lean =
+      rig->leg_count && !rig->stand.has_one_bone_legs && sbri_rig_center(rig, rig->bones.rest, 1, &center);
   if (!can_lean) return sbri_vec3(0, 0, 0);
   for (uint32_t i = 0; i < 4 * rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i / 4];
@@ -111,7 +112,7 @@ static float min_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 direction, sb
   return later < margin_now ? later : margin_now;
 }
 
-bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+bool sbri_is_supported(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 direction) {
   polygon hull = hull_of(rig, state, input->scale, lifted);
   sbf_vec3 unused, at = center_at(state, state->balance.sway_x.value, state->balance.sway_z.value);
@@ -119,7 +120,7 @@ bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const
          margin_of(&hull, sbri_add(at, direction), &unused) >= 0;
 }
 
-sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+sbf_vec3 sbri_find_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 direction) {
   polygon hull = hull_of(rig, state, input->scale, lifted);
   sbf_vec3 sway = {0, 0, 0}, middle = {0, 0, 0};

@@ -1,15 +1,17 @@
 /* Swing of a foot to a foothold ahead of its home. */
 #include "animation/gait/gait_state.h"
 
-static const float RESTING_PHASE = 0.75f; /* phase from which the target is fixed */
-static const float SET_PHASE = 0.25f;     /* phase from which the target's height is fixed */
-static const float FOLLOW = 0.3f; /* fraction by which the target follows the wanted one per tick, at first */
+static const float FIXED_TARGET_PHASE = 0.75f; /* phase from which the target is fixed */
+static const float FIXED_HEIGHT_PHASE = 0.25f; /* phase from which the target's height is fixed */
+static const float TARGET_FOLLOW =
+    0.3f; /* fraction by which the target follows the wanted one per tick, at first */
 static const float SPARE_TIME = 1.15f; /* available time as a multiple of the needed time */
 static const float EASIEST =
     0.5f; /* on uneven ground, counted duration of an easy step, of the intended one */
 static const float LEVEL = 0.08f; /* fraction of the reach: a larger difference of height is another level */
-static const float AS_PLANNED = 1.02f; /* needed time as a multiple of the available time that is tolerated */
-static const float REPLANNED =
+static const float TIME_TOLERANCE =
+    1.02f; /* needed time as a multiple of the available time that is tolerated */
+static const float REPLAN_DISTANCE =
     0.02f;                           /* fraction of the reach: a target that moves further is planned again */
 static const float MIN_LIMIT = 0.1f; /* fraction of the commanded speed: minimum of the learned limit */
 enum { PASSES = 4 };
@@ -17,44 +19,45 @@ enum { PASSES = 4 };
 /* Landing position: ahead of the foot's home at the time of landing. */
 static sbf_vec3 target_position(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, const sbri_stride *stride, uint32_t leg, float left_s) {
-  float lasting = state->feet[leg].step.speed_fraction;
-  left_s *= state->pace.speed_fraction < lasting ? state->pace.speed_fraction : lasting;
+  float sustainable = state->feet[leg].step.speed_fraction;
+  left_s *= state->stepping.speed_fraction < sustainable ? state->stepping.speed_fraction : sustainable;
   const sbri_home *at = &stride->homes[leg];
   float turned = state->motion.turn * left_s;
   sbf_vec3 home, now = at->arm, velocity = at->velocity, drift = sbri_body_velocity(state);
-  if (rig->legs[leg].home.carrier >= 0) {
+  if (rig->legs[leg].home.chain_bone >= 0) {
     home = sbri_add_scaled(sbri_add(state->motion.position, now), velocity, left_s);
   } else {
     drift = sbri_rotate_yaw(drift, 0.5f * turned);
     home = sbri_add(sbri_add_scaled(state->motion.position, drift, left_s), sbri_rotate_yaw(now, turned));
     velocity = sbri_rotate_yaw(velocity, turned);
   }
-  if (state->pace.standing_s > 0 || stride->speed <= 0) return home;
+  if (state->stepping.standing_s > 0 || stride->speed <= 0) return home;
   sbf_vec3 direction = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
   float half = stride->half_m * sbri_length(velocity) / stride->speed;
-  float ahead = sbri_ahead(&at->roam, direction, half), max = SBRI_WIDEST * rig->stand.reach * input->scale;
+  float ahead = sbri_landing_distance(&at->circle, direction, half),
+        max = SBRI_WIDEST * rig->stand.reach * input->scale;
   float travelled =
       sbri_dot(sbri_sub(home, state->feet[leg].step.from), direction); /* distance along the step */
   if (travelled + ahead > max) ahead = max > travelled ? max - travelled : 0;
   return sbri_add_scaled(home, direction, ahead);
 }
 
-static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+static void update_target(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg, float fraction) {
   sbri_foot *foot = &state->feet[leg];
   float left = (1 - sbri_clamp(foot->step.phase, 0, 1)) * foot->step.duration_s;
   sbf_vec3 position, normal, wanted = target_position(rig, state, input, stride, leg, left);
-  if (!sbri_footing(rig, state, input, leg, wanted, &position, &normal))
+  if (!sbri_find_foothold(rig, state, input, leg, wanted, &position, &normal))
     position = foot->step.from, normal = foot->step.from_normal;
   if (sbri_flat_distance(position, wanted) > 0) { /* another foothold: positions between are not checked */
     if (foot->step.phase > 0 &&
-        sbri_stands(rig, state, input, leg, foot->step.to, foot->step.phase < SET_PHASE))
+        sbri_can_stand(rig, state, input, leg, foot->step.to, foot->step.phase < FIXED_HEIGHT_PHASE))
       return;
     fraction = 1;
   }
   bool is_other_level = fabsf(position.y - foot->step.to.y) > LEVEL * rig->stand.reach * input->scale;
-  if (foot->step.phase > SET_PHASE && is_other_level) return; /* too late for another level */
-  if (is_other_level) fraction = 1;                           /* there is no foothold between two levels */
+  if (foot->step.phase > FIXED_HEIGHT_PHASE && is_other_level) return; /* too late for another level */
+  if (is_other_level) fraction = 1; /* there is no foothold between two levels */
   foot->step.to = sbri_lerp(foot->step.to, position, fraction);
   foot->step.to_normal = sbri_normalize(sbri_lerp(foot->step.to_normal, normal, fraction), normal);
 }
@@ -65,12 +68,13 @@ static float time_ratio_of(const sbri_foot *foot) {
 }
 
 /* Plans the step. Returns true if it is higher or faster than the previous plan. */
-static bool plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+static bool plan_path(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
-  float clearance = foot->step.clearance, haste = time_ratio_of(foot);
+  float clearance = foot->step.clearance, ratio = time_ratio_of(foot);
   foot->step.planned = foot->step.to;
   sbri_step_plan(rig, state, input, leg);
-  return foot->step.clearance > clearance || time_ratio_of(foot) > haste;
+  return foot->step.clearance > clearance || time_ratio_of(foot) > ratio;
 }
 
 /* Adapts the speed to the duration of steps: long steps make the next ones slower, and the body too if the
@@ -79,13 +83,13 @@ static void adapt_speed(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     const sbri_stride *stride, float needed_s) {
   float easiest = stride->level ? 0 : EASIEST * stride->duration_s;
   if (needed_s < easiest) needed_s = easiest; /* one easy step says little of the next */
-  float fraction = needed_s > state->pace.step_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
-  state->pace.step_s += fraction * (needed_s - state->pace.step_s);
+  float fraction = needed_s > state->stepping.step_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
+  state->stepping.step_s += fraction * (needed_s - state->stepping.step_s);
   float wanted = sbri_wanted_speed(rig, state, input, stride->homes),
         max = stride->available_s * stride->speed;
-  float at_max = max / (SPARE_TIME * state->pace.step_s); /* m/s */
-  if (stride->speed > 0) state->pace.step_limit = wanted > at_max ? at_max / wanted : 1;
-  if (state->pace.step_limit < MIN_LIMIT) state->pace.step_limit = MIN_LIMIT;
+  float at_max = max / (SPARE_TIME * state->stepping.step_s); /* m/s */
+  if (stride->speed > 0) state->stepping.step_limit = wanted > at_max ? at_max / wanted : 1;
+  if (state->stepping.step_limit < MIN_LIMIT) state->stepping.step_limit = MIN_LIMIT;
 }
 
 void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
@@ -98,11 +102,11 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->step.from_normal = foot->normal;
   float needed = 0;
   for (int pass = 0; pass < PASSES; pass++) { /* a longer step lands further ahead */
-    foot->step.speed_fraction = sbri_lasting(rig, state, input, leg, foot->step.duration_s);
-    aim(rig, state, input, stride, leg, 1);
-    if (!plan(rig, state, input, leg) && pass > 0) break; /* the plan has converged */
-    needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
-    if (needed <= AS_PLANNED * foot->step.duration_s) break;
+    foot->step.speed_fraction = sbri_sustainable_fraction(rig, state, input, leg, foot->step.duration_s);
+    update_target(rig, state, input, stride, leg, 1);
+    if (!plan_path(rig, state, input, leg) && pass > 0) break; /* the plan has converged */
+    needed = sbri_step_duration(rig, state, input, leg, stride->duration_s);
+    if (needed <= TIME_TOLERANCE * foot->step.duration_s) break;
     foot->step.duration_s = needed;
   }
   foot->step.needed_s = needed;
@@ -113,7 +117,7 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->glides.twist = sbri_glide_at(foot->heading);
 }
 
-static void landed(sbri_foot *foot) {
+static void land(sbri_foot *foot) {
   foot->ground = foot->step.to;
   foot->normal = foot->step.to_normal;
   foot->heading = 0;
@@ -152,12 +156,12 @@ static void move(sbri_foot *foot, float tick_s) {
 
 /* Shortens a step that began at a lower speed to the present duration of steps, or to the time for which the
  * planted feet stay within reach, as far as its knee allows. */
-static void hasten(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+static void shorten_step(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg, sbri_foot *foot) {
   float left = 1 - foot->step.phase;
-  if (!state->pace.quick || left <= 0) return;
+  if (!state->stepping.quick || left <= 0) return;
   float duration = stride->duration_s < foot->step.duration_s ? stride->duration_s : foot->step.duration_s;
-  duration *= sbri_lasting(rig, state, input, leg, left * duration);
+  duration *= sbri_sustainable_fraction(rig, state, input, leg, left * duration);
   if (duration < SPARE_TIME * foot->step.needed_s) duration = SPARE_TIME * foot->step.needed_s;
   if (duration < foot->step.duration_s) foot->step.duration_s = duration;
 }
@@ -165,29 +169,30 @@ static void hasten(const sbri_rig *rig, const sbri_gait_state *state, const sbri
 bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
-  hasten(rig, state, input, stride, leg, foot);
+  shorten_step(rig, state, input, stride, leg, foot);
   foot->step.phase += input->tick_s / foot->step.duration_s;
-  if (foot->step.phase < RESTING_PHASE) {
-    float left = 1 - foot->step.phase / RESTING_PHASE;
-    aim(rig, state, input, stride, leg, FOLLOW * left);
+  if (foot->step.phase < FIXED_TARGET_PHASE) {
+    float left = 1 - foot->step.phase / FIXED_TARGET_PHASE;
+    update_target(rig, state, input, stride, leg, TARGET_FOLLOW * left);
     float distance = sbri_length(sbri_sub(foot->step.to, foot->step.planned));
-    bool off_plan = foot->step.phase < SET_PHASE && distance > REPLANNED * rig->stand.reach * input->scale;
-    if (off_plan) (void)plan(rig, state, input, leg);
+    bool off_plan =
+        foot->step.phase < FIXED_HEIGHT_PHASE && distance > REPLAN_DISTANCE * rig->stand.reach * input->scale;
+    if (off_plan) (void)plan_path(rig, state, input, leg);
     if (off_plan && foot->step.clearance > rig->gait->step_height * input->scale) { /* over an obstacle */
-      float needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
+      float needed = sbri_step_duration(rig, state, input, leg, stride->duration_s);
       if (needed > foot->step.needed_s) foot->step.needed_s = needed;
       if (needed > foot->step.duration_s) foot->step.duration_s = needed;
     }
   } else if (foot->step.to_normal.y != 0) {
     sbf_vec3 position = foot->step.to, normal = foot->step.to_normal;
-    sbri_lay_sole(rig, state, input, leg, &position, &normal);
+    sbri_set_sole_on_ground(rig, state, input, leg, &position, &normal);
     bool is_other_level =
         fabsf(position.y - foot->step.to.y) > LEVEL * rig->stand.reach * input->scale; /* too late for that */
     if (!is_other_level) foot->step.to = position, foot->step.to_normal = normal;
   }
   bool down = foot->step.phase >= 1;
   if (down)
-    landed(foot);
+    land(foot);
   else
     move(foot, input->tick_s);
   sbri_foot_update_orientation(rig, state, input, leg);

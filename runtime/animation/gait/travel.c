@@ -8,7 +8,7 @@ void sbri_gait_travel(const sbri_rig *rig, void *memory, const sbri_gait_input *
   sbri_gait_state *state = memory;
   sbri_gait_input footless = *input;
   footless.keeps_rest_pose = true; /* no foot slows it down */
-  state->pace.waiting_s = 0;
+  state->stepping.waiting_s = 0;
   (void)sbri_body_move(rig, state, &footless);
   state->fall.level = sbri_ground_below(input, state->motion.position, NULL).y;
   sbri_clips_tick(rig, state, input->tick_s);
@@ -23,8 +23,8 @@ void sbri_gait_arrive(const sbri_rig *rig, void *memory, const sbri_gait_input *
   state->balance.sway_x = state->balance.sway_z = state->balance.crouch = state->balance.upright =
       (sbri_lag){0, 0};
   state->balance.clearance = state->balance.bent = (sbri_lag){0, 0};
-  state->pace.waiting_s = 0;
-  state->pace.since_lift_m = 1e6f;
+  state->stepping.waiting_s = 0;
+  state->stepping.since_lift_m = 1e6f;
   sbri_body_stand(rig, state, input);
   for (uint32_t i = 0; i < rig->leg_count; i++) state->feet[i].steps_taken = steps[i];
 }

@@ -25,7 +25,7 @@ static float find_walks(const sbri_walks *walks, float speed, const sbri_walk **
 static float speed_of(const sbri_gait_state *state, float scale) {
   return sqrtf(state->motion.forward * state->motion.forward +
                state->motion.sideways * state->motion.sideways) *
-         state->pace.speed_fraction / scale;
+         state->stepping.speed_fraction / scale;
 }
 
 /* At a landing: updates the phase error of the walk, and the length of half a cycle. */
@@ -54,7 +54,7 @@ void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m,
   walked_m /= scale;
   state->walk.since_m += walked_m;
   if (low->mirrored) synchronise(walks, state, 0.5f * cycle);
-  if (state->pace.standing_s > 0) state->walk.half_m = 0, state->walk.landed_leg = 0;
+  if (state->stepping.standing_s > 0) state->walk.half_m = 0, state->walk.landed_leg = 0;
   float fraction = walked_m / (low->mirrored && state->walk.half_m > 0 ? 2 * state->walk.half_m : cycle);
   if (low->mirrored && !backwards) {
     float max = MAX_CATCH * fraction,

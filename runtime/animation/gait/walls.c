@@ -28,7 +28,7 @@ static void remove_inward_velocity(body_move *m, sbf_vec3 normal) {
   sbf_vec3 v = sbri_body_velocity(state);
   float into = sbri_dot(v, normal);
   if (into >= 0) return;
-  v = sbri_unheaded(state, sbri_add_scaled(v, normal, -into));
+  v = sbri_world_to_body(state, sbri_add_scaled(v, normal, -into));
   state->motion.forward = v.z, state->motion.sideways = v.x;
 }
 

@@ -66,7 +66,7 @@ static float tread_length(const sbri_rig *rig, const sbf_tread *tread) {
 
 void sbri_wheels_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float *angles = sbri_wheel_angles(rig, state), *distances = sbri_tread_distances(rig, state);
-  float h = input->tick_s * state->pace.speed_fraction;
+  float h = input->tick_s * state->stepping.speed_fraction;
   for (uint32_t i = 0; i < rig->gait->wheels.count; i++) {
     const sbf_wheel *wheel = &rig->gait->wheels.at[i];
     sbf_vec3 v = velocity_at(state, rig->bones.rest[wheel->bone].position, input->scale);

@@ -9,98 +9,100 @@
 #include "animation/skeleton/walk_table.h"
 #include "sbrun/sbrun.h"
 
-/* What has to have ground under a foot, from its middle: left (+x), right, toe (+z), heel; m. */
+/* Extent of the part of a foot that needs ground below it, from its middle: left (+x), right, toe (+z), heel;
+ * m. */
 typedef struct sbri_sole {
   float left, right, toe, heel;
-  float outline[4];    /* the same of all of the foot, seen from above */
-  sbf_vec3 corners[4]; /* of what it stands on: outermost towards right heel, left heel, right toe, left toe;
-                          y 0 */
+  float outline[4]; /* the same extents of the whole foot, seen from above */
+  sbf_vec3
+      corners[4]; /* outermost points of the sole towards right heel, left heel, right toe, left toe; y 0 */
 } sbri_sole;
 
-/* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. Or two, a peg: the
- * upper one swings the foot, and how far the foot is from it says nothing of how far the leg may reach. Or
- * four: the third is a long foot that leans over the toe it stands on. */
+/* Pole vector of the knee. */
 typedef struct sbri_leg_pole {
   sbf_vec3 direction; /* asset space, rest pose */
-  int32_t bone;       /* the pole moves with it; -1: with the root */
+  int32_t bone;       /* bone that the pole moves with; -1: the root */
   sbf_vec3 position;  /* in that bone's frame, m */
 } sbri_leg_pole;
 
-/* Where the sole stands at rest. */
+/* Position of the sole at rest. */
 typedef struct sbri_leg_home {
-  sbf_vec3 position; /* middle of the sole, asset space, y that of the ankle above the ground */
-  int32_t carrier;   /* index among the chains' bones of the one that the leg hangs on; -1: none */
-  sbf_vec3 in_bone;  /* the position in that bone's frame, m */
-  sbf_vec3 ankle;    /* from the middle of the sole, m; `position` is above that middle */
-  sbf_vec3 toe;      /* the same of the toe's head */
+  sbf_vec3 position;  /* middle of the sole, asset space; y: height of the ankle above the ground */
+  int32_t chain_bone; /* index among the bones of trailing chains of the leg's parent; -1: the body */
+  sbf_vec3 in_bone;   /* the position in that bone's frame, m */
+  sbf_vec3 ankle;     /* ankle relative to the middle of the sole, m */
+  sbf_vec3 toe;       /* head of the toe relative to it, m */
 } sbri_leg_home;
 
-/* m. */
+/* Lengths of a leg, m. */
 typedef struct sbri_leg_length {
   float upper, lower;
-  float reach;        /* maximum distance of ankle and hip, as far as the knee's limits let it stretch; of a
-                         long foot, were that upright: sbri_leg_span */
-  float soft_reach;   /* fraction of the reach from which on the leg stretches softly */
+  float reach;        /* maximum distance of ankle and hip within the knee's limits; with a long foot, for the
+                         upright foot (sbri_leg_span) */
+  float soft_reach;   /* fraction of the reach at its end in which the leg stretches softly */
   float rest_span;    /* distance of hip and ankle at rest */
-  float rest_stretch; /* the same as a fraction of what soft_reach leaves of the reach */
+  float rest_stretch; /* rest_span / (reach without its soft part) */
 } sbri_leg_length;
 
+/* A leg of the gait, with data of the rest pose. It has three bones: thigh, shin and foot. A leg of two bones
+ * has no knee: its upper bone swings the foot, and the distance of both does not limit its reach. A leg of
+ * four bones has a long foot that leans over the toe on which it stands. */
 typedef struct sbri_leg {
-  int32_t upper, lower, foot; /* bones: thigh, shin (-1: a peg), and the one whose head is the ankle */
-  int32_t toe;                /* the one that stands, where that is not the foot itself; else 0 */
+  int32_t upper, lower, foot; /* bones: thigh, shin (-1: no knee), and the one whose head is the ankle */
+  int32_t toe;                /* bone that stands on the ground if the foot is long; else 0 */
   sbri_leg_pole pole;
   sbri_leg_home home;
   sbri_leg_length length;
-  float toe_copies; /* fraction of the ground's slope that the toe takes; the foot leans, and takes none */
-  float copy_rotation;
+  float toe_copies;    /* fraction of the ground's slope that the toe of a long foot takes */
+  float copy_rotation; /* fraction of the slope that another foot takes */
   uint32_t group;
-  bool hind;                             /* hangs on the hips; else on the chest */
-  bool fore;                             /* one of those in front, by which the body pitches */
+  bool hind; /* below the hips; else below the chest */
+  bool fore; /* a front leg: the body pitches by the heights of front and other legs */
   sbf_quat upper_inverse, lower_inverse; /* undo the rotations of thigh and shin at rest */
   sbri_sole sole;
   bool has_toe;    /* its foot is long */
-  bool has_others; /* bones hang on thigh or shin beside the leg's own, as those that share a twist */
-  bool is_last; /* all that hangs on the thigh is posed after the leg is solved: nothing but legs moves it */
+  bool has_others; /* thigh or shin has other children too, for example twist bones */
+  bool is_last;    /* all bones below the thigh are posed after the leg is solved: only legs move them */
 } sbri_leg;
 
 typedef struct sbri_tail_bone {
-  sbf_vec3 step;   /* from its head to the next one's, of the last to its end; asset space, at rest */
-  float clearance; /* that its end keeps over the ground, m */
+  sbf_vec3 step;   /* from its head to the next head, of the last bone to its end; asset space, at rest */
+  float clearance; /* minimum height of its end above the ground, m */
 } sbri_tail_bone;
 
 typedef struct sbri_tail {
   const uint32_t *bone_indices; /* bone_count, from the leading one */
   const sbri_tail_bone *bones;  /* bone_count */
   uint32_t bone_count;
-  uint32_t first_state; /* place of its first bone among all tails' bones */
+  uint32_t first_state; /* index of its first bone among the bones of all tails */
   float frequency, damping_ratio, limit;
 } sbri_tail;
 
-/* A chain that no tail moves. */
+/* A trailing chain; tails have their own. */
 typedef struct sbri_bone_chain {
   const sbf_chain *source;
-  uint32_t first_state; /* place of its first bone among all such chains' bones */
+  uint32_t first_state; /* index of its first bone among the bones of all chains */
 } sbri_bone_chain;
 
 enum { SBRI_MAX_LEGS = 16, SBRI_BELLY = 4, SBRI_BUMPERS = 48 };
 
-/* A ball in the body, in the gait's rest pose; asset space. */
+/* A ball inside the body that walls keep out, in the gait's rest pose; asset space. */
 typedef struct sbri_bumper {
   sbf_vec3 position;
   float radius;
 } sbri_bumper;
 
-/* How much room the body takes among colliders: animation/skeleton/rig_girth.c. */
+/* Size of the body for collisions of the gait with colliders: animation/skeleton/rig_girth.c. */
 typedef struct sbri_girth {
-  sbri_bumper bumpers[SBRI_BUMPERS]; /* that walls keep out */
+  sbri_bumper bumpers[SBRI_BUMPERS]; /* (bumper_count) */
   uint32_t bumper_count;
-  float step_up;        /* m: the highest that it steps on */
-  float radius;         /* m: about the origin, of all of this and of the feet */
-  float mass;           /* kg, about: what is lighter gives way to it */
-  uint32_t layer, mask; /* of any of its bodies */
+  float step_up;        /* maximum height of a step up, m */
+  float radius;         /* of bumpers and feet about the origin, m */
+  float mass;           /* approximate mass, kg: the body pushes lighter colliders aside */
+  uint32_t layer, mask; /* union over its bodies */
 } sbri_girth;
 
-/* What turns a bone beside its parent. */
+/* What rotates a bone relative to its parent. */
 typedef enum sbri_bone_role {
   SBRI_ROLE_NONE,
   SBRI_ROLE_SPINE,
@@ -109,7 +111,7 @@ typedef enum sbri_bone_role {
   SBRI_ROLE_LEG /* below the thigh of a leg that is posed last */
 } sbri_bone_role;
 
-/* Share of the body's mass that a bone carries, and its middle in the bone's frame. */
+/* Fraction of the body's mass at a bone, and its centre in the bone's frame. */
 typedef struct sbri_bone_mass {
   float fraction;
   sbf_vec3 position;
@@ -139,7 +141,7 @@ typedef struct sbri_rig_chains {
   uint32_t count, bone_count;
 } sbri_rig_chains;
 
-/* The standing body: what its legs and its belly measure, asset space. */
+/* Measures of the standing body, asset space. */
 typedef struct sbri_rig_stand {
   float hind_z, fore_z;       /* mean z of the homes of fore legs and of the others */
   float hips_y;               /* mean height at which legs begin */
@@ -147,10 +149,10 @@ typedef struct sbri_rig_stand {
   float spread;               /* maximum distance of a home from the middle, horizontal, m */
   float reach;                /* mean of the legs' lengths, m */
   uint32_t group_count;       /* of the legs */
-  bool has_pegs;              /* some leg has no knee */
+  bool has_one_bone_legs;     /* some leg has no knee */
   sbf_vec3 belly[SBRI_BELLY]; /* lowest points of the body: fore and hind, left and right */
   uint32_t belly_count;
-  sbf_vec3 low, high; /* bounds at rest, of kinds of gait other than walking */
+  sbf_vec3 low, high; /* bounds at rest, for gaits other than walking */
 } sbri_rig_stand;
 
 /* The chain of the gait's undulation. */
@@ -174,8 +176,9 @@ typedef struct sbri_rig {
   sbri_rig_wave wave;
 } sbri_rig;
 
-/* A long foot leans by half of what the leg would have to stretch or to bend, were it upright: how far the
- * ankle is from the hip then, `upright` being how far it would be, m; and back. */
+/* A long foot leans so that the leg stretches or bends by only half of the change that it would need with an
+ * upright foot. Returns the distance of hip and ankle, m, if it would be `upright` for an upright foot; and
+ * the inverse. */
 static inline float sbri_leg_span(const sbri_leg *leg, float scale, float upright) {
   return !leg->has_toe ? upright : 0.5f * (upright + leg->length.rest_span * scale);
 }
@@ -183,20 +186,20 @@ static inline float sbri_leg_upright(const sbri_leg *leg, float scale, float spa
   return !leg->has_toe ? span : 2 * span - leg->length.rest_span * scale;
 }
 
-/* Rotation whose +Y runs along a bone and whose +X is square to it, towards `side`. */
+/* Rotation with +Y along a bone and +X perpendicular to it, towards `side`. */
 sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side);
 
-/* Whether a bone is another or hangs on it. */
+/* Whether a bone is `ancestor` or below it. */
 static inline bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor) {
   for (; bone >= 0; bone = rig->bones.parents[bone])
     if (bone == ancestor) return true;
   return false;
 }
 
-/* Turns a bone, and all that hangs on it, about the bone's head. */
+/* Rotates a bone and its descendants about the bone's head. */
 void sbri_rig_rotate_bone(const sbri_rig *rig, uint32_t bone, sbf_quat rotation, sbr_transform *pose);
 
-/* Moves a bone, and all that hangs on it. */
+/* Moves a bone and its descendants. */
 void sbri_rig_shift(const sbri_rig *rig, uint32_t bone, sbf_vec3 by, sbr_transform *pose);
 
 #endif

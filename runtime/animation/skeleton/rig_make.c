@@ -115,7 +115,7 @@ static void init_legs(sbri_rig *rig) {
     sbri_leg *leg = &rig->legs[rig->leg_count];
     if (!init_leg(rig, &rig->gait->legs.at[i], leg)) continue;
     rig->leg_count++;
-    rig->stand.has_pegs = rig->stand.has_pegs || leg->lower < 0;
+    rig->stand.has_one_bone_legs = rig->stand.has_one_bone_legs || leg->lower < 0;
     sbri_rig_find_sole(rig, leg);
     rig->stand.reach += leg->length.upper + leg->length.lower;
     if (leg->group + 1 > rig->stand.group_count) rig->stand.group_count = leg->group + 1;
@@ -150,13 +150,13 @@ static void init_chains(sbri_rig *rig, sbri_bone_chain *chains) {
 static void find_leg_chain_bones(sbri_rig *rig) {
   for (uint32_t l = 0; l < rig->leg_count; l++) {
     sbri_leg *leg = &rig->legs[l];
-    leg->home.carrier = -1;
+    leg->home.chain_bone = -1;
     for (uint32_t c = 0; c < rig->chains.count; c++) {
       const sbf_u32_list *bones = &rig->chains.at[c].source->bones;
       for (uint32_t k = 0; k < bones->count; k++) {
         const sbr_transform *rest = &rig->bones.rest[bones->at[k]];
         if (rig->bones.parents[leg->upper] != (int32_t)bones->at[k]) continue;
-        leg->home.carrier = (int32_t)(rig->chains.at[c].first_state + k);
+        leg->home.chain_bone = (int32_t)(rig->chains.at[c].first_state + k);
         sbf_vec3 home = sbri_vec3(leg->home.position.x, 0, leg->home.position.z);
         leg->home.in_bone = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(home, rest->position));
       }

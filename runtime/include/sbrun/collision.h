@@ -40,14 +40,14 @@ typedef struct sbr_host_shape {
   /* Ray: the fraction, 0 to 1, of `displacement` from `from` at which it enters, with the normal there;
    * negative if it hits nothing. NULL: fast points may pass through. */
   float (*cast)(void *user, sbf_vec3 from, sbf_vec3 displacement, sbf_vec3 *normal);
-  void *user;         /* handed to both */
-  sbf_vec3 low, high; /* m: bounds outside of which neither is asked */
+  void *user;         /* passed to both functions */
+  sbf_vec3 low, high; /* bounds, m; the functions are not called outside them */
 } sbr_host_shape;
 
 /* Definition of a shape; its arrays are copied. */
 typedef struct sbr_shape_definition {
   uint32_t cookie;                 /* set by sbr_default_shape_definition */
-  sbr_shape_kind kind;             /* its form; default sphere */
+  sbr_shape_kind kind;             /* default sphere */
   float radius;                    /* m, > 0: sphere, capsule; default 0.5 */
   sbf_vec3 half_sizes;             /* m, > 0: box; y alone, >= 0: capsule; default 0.5 each */
   const sbf_vec3 *points;          /* (point_count) hull, mesh */
@@ -72,11 +72,11 @@ SBF_API void sbr_shape_destroy(sbr_shape *shape);
 /* Definition of a collider. */
 typedef struct sbr_collider_definition {
   uint32_t cookie;        /* set by sbr_default_collider_definition */
-  const sbr_shape *shape; /* its form */
+  const sbr_shape *shape; /* required */
   sbr_double3 position;   /* world, of the shape's origin */
   sbf_quat rotation;      /* from the shape's axes to the world's; default none */
-  float friction;         /* Coulomb coefficient; negative (default): that of what touches it */
-  float restitution;      /* [0, 1]; negative (default): likewise */
+  float friction;         /* Coulomb coefficient; negative (default): the other body's */
+  float restitution;      /* [0, 1]; negative (default): the other body's */
   uint32_t layer;         /* layers it is on; default 1 */
   uint32_t mask;          /* layers it collides with; default all */
   float mass;             /* kg, > 0: of a body of the host's own, which what touches it moves (below); 0

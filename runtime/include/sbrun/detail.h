@@ -42,12 +42,12 @@ typedef enum sbr_detail_level_kind {
 
 /* A detail level of a model. */
 typedef struct sbr_detail_level {
-  sbr_detail_level_kind kind; /* what it is */
-  uint32_t level;             /* of soft ones: of each body that has so many, else its coarsest */
-  float error_m; /* the greatest that its levels state, of motion where that was measured (simulation
-                    .motion_error), else at rest; where one states none, 2 % of the body's size */
-  float visits;  /* what a tick costs, in visits of elements, the gait's share included */
-  size_t bytes;  /* that a character holds; what its surfaces meet others with comes on top */
+  sbr_detail_level_kind kind; /* how bodies are simulated */
+  uint32_t level;             /* soft kind: level of each body, or its coarsest if it has fewer */
+  float error_m; /* maximum error stated by its levels: in motion if measured (simulation.motion_error), else
+                    at rest; 2 % of the body's size for a level without a stated error */
+  float visits;  /* cost of a tick in element visits, with the gait */
+  size_t bytes;  /* memory of a character without the surfaces for body contacts */
 } sbr_detail_level;
 
 /* Writes up to `capacity` detail levels of the model, finest first, and returns their number. It is 1 without

@@ -24,8 +24,8 @@ typedef struct sbr_contact_event {
   uint64_t tick;        /* ticks since the world was created */
   sbr_object a;         /* a body of a character */
   sbr_object b;         /* the ground, a collider or another body */
-  sbr_double3 position; /* world, m; at the end of a contact that of the last contact */
-  sbf_vec3 normal;      /* unit, from b towards a; likewise */
+  sbr_double3 position; /* world, m; of an ended contact: its last position */
+  sbf_vec3 normal;      /* unit, from b towards a; of an ended contact: its last normal */
   float impulse;        /* N s along the normal in that tick, approximate; 0 at the end of a contact */
   float speed;          /* m/s: greatest closing speed in that tick; 0 at the end of a contact */
 } sbr_contact_event;
@@ -33,10 +33,10 @@ typedef struct sbr_contact_event {
 /* Contacts of the last step. Sleeping bodies give none. Destroying a character or a collider ends its
  * contacts without events. A body reports contacts with at most 12 colliders at once. */
 typedef struct sbr_contact_events {
-  const sbr_contact_event *begin; /* (begin_count) they began */
-  const sbr_contact_event *end;   /* (end_count) they ended */
+  const sbr_contact_event *begin; /* (begin_count) new contacts */
+  const sbr_contact_event *end;   /* (end_count) ended contacts */
   const sbr_contact_event
-      *hit;             /* (hit_count) one a tick and pair, faster than sbr_world_definition.hit_speed */
+      *hit;             /* (hit_count) one per tick and pair, faster than sbr_world_definition.hit_speed */
   uint32_t begin_count; /* of `begin` */
   uint32_t end_count;   /* of `end` */
   uint32_t hit_count;   /* of `hit` */

@@ -31,10 +31,10 @@ SBF_API void sbr_world_set_recording(sbr_world *world, const sbr_record_output *
 
 /* A recording that is being played. Fields are read by the host; sbr_replay_begin sets them. */
 typedef struct sbr_replay {
-  sbr_world *world;           /* it is played in */
+  sbr_world *world;           /* world in which it is played */
   const unsigned char *bytes; /* the recording; must outlive the playing */
   size_t size;                /* of its whole records */
-  size_t at;                  /* how far it has been played */
+  size_t at;                  /* offset of the next record */
   double frame_s;             /* length of the last frame */
   uint64_t frame_count;       /* steps in it */
   uint64_t frames;            /* played so far */

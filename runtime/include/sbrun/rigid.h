@@ -101,13 +101,13 @@ SBF_API void *sbr_character_get_rigid_user_data(
 
 /* A rigid body as of the last tick. */
 typedef struct sbr_rigid_state {
-  sbr_rigid_mode mode;          /* what moves it */
+  sbr_rigid_mode mode;          /* kinematic, passive or driven */
   sbr_transform frame;          /* of the body (spec 8.2), position relative to the character's origin, m */
-  sbf_vec3 center;              /* of mass, likewise */
+  sbf_vec3 center;              /* centre of mass relative to the character's origin, m */
   sbf_vec3 velocity;            /* of the centre of mass, m/s */
   sbf_vec3 angular_velocity;    /* rad/s, world axes */
   float mass;                   /* kg */
-  float kinetic_j, potential_j; /* potential is that of weight, 0 at the height of world y = 0 */
+  float kinetic_j, potential_j; /* potential energy of weight is 0 at world y = 0 */
 } sbr_rigid_state;
 SBF_API sbr_rigid_state sbr_character_get_rigid_state(
     const sbr_world *world, sbr_character_id character, uint32_t rigid_body);

@@ -104,34 +104,35 @@ SBF_API const char *sbr_instructions_get_name(sbr_instructions instructions);
 typedef struct sbr_model_options {
   uint32_t cookie;                /* set by sbr_default_model_options */
   const sbf_allocator *allocator; /* NULL: malloc */
-  uint32_t level;    /* of each body that has so many levels, else its coarsest; of those of springs and of
-                        tetrahedra the nearest */
-  sbf_scheme scheme; /* automatic: the level's own, and where that is automatic, symplectic, or position_based
-                        where that would be too many substeps or in trouble: docs/solvers.md */
-  uint32_t substeps; /* of a control tick; 0: the level's own, or as many as the scheme needs */
-  bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass, those
-                inside in proportion to the stiffness of their springs */
-  bool has_gravity; /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
+  uint32_t level;    /* level of each body, or its coarsest if it has fewer; if the runtime cannot step that
+                        level, the nearest of springs or tetrahedra */
+  sbf_scheme scheme; /* automatic: the level's own; if that is automatic too, symplectic, or position_based if
+                        it would need too many substeps or fails (docs/solvers.md) */
+  uint32_t substeps; /* per control tick; 0: the level's own, or as many as the scheme needs */
+  bool free; /* drops all pins: bodies fall off the bones, and all their points have mass, interior points in
+                proportion to the stiffness of their springs */
+  bool has_gravity; /* rest shapes of sag-free bodies bear `gravity` instead of the asset's; set it as in the
+                       world */
   sbf_vec3 gravity; /* m/s^2 */
-  uint32_t tear_points; /* that tearing may add to each body; 0: half as many as it has */
-  float step_error_m;   /* error that a step of a scheme with error control (heun) may have; 0: the file's,
-                           else 0.0001 */
+  uint32_t tear_points; /* number of points that tearing may add to each body; 0: half of its points */
+  float step_error_m;   /* maximum error of a step of a scheme with error control (heun); 0: the file's, else
+                           0.0001 */
   sbr_instructions instructions; /* for the solvers' loops */
-  uint32_t rigid_substeps;       /* of a control tick for rigid parts (sbrun/rigid.h), in flight a quarter at
-                                  * the least; at most 1000; 0: 4, or 1 where `rigid_coarse` */
-  bool detail_levels; /* coarser levels than `level` as well, jiggle and bones alone, between which characters
-                  change (sbrun/detail.h) */
-  /* Rigid parts fall for about half the time: one step of a tick where nothing asks for more, joints off by
-   * up to 0.1 mm, a thousandth of a strike's energy left undecided (docs/rigid.md, "Coarse"). */
+  uint32_t rigid_substeps;       /* per control tick for rigid parts (sbrun/rigid.h), at most 1000; in flight
+                                    at least a quarter of them; 0: 4, or 1 if `rigid_coarse` */
+  bool detail_levels; /* also makes levels coarser than `level`, jiggle, and bones alone, between which
+                         characters change (sbrun/detail.h) */
+  /* Cheaper rigid parts: one step per tick unless contacts or joints need more, joints with errors of up to
+   * 0.1 mm (docs/rigid.md, "Coarse"). */
   bool rigid_coarse;
 } sbr_model_options;
 
-/* Begin with the default options: all is 0, or as the asset has it. */
+/* The default options: values of the asset. Begin with them. */
 SBF_API sbr_model_options sbr_default_model_options(void);
-/* `asset` must outlive the model. `options` NULL: the default. SBF_FAILED where memory runs out, the
+/* `asset` must outlive the model. `options` NULL: the default. SBF_FAILED if memory runs out, the
  * instructions are not available, or the scheme is not one of the runtime's (symplectic, position_based,
- * relaxation, explicit_euler, heun, block_descent) or cannot step a body; SBF_BAD_INPUT where the asset asks
- * for something the runtime cannot simulate, or has a length beyond 1e6 m or another number beyond 1e15. */
+ * relaxation, explicit_euler, heun, block_descent) or cannot step a body. SBF_BAD_INPUT if the asset needs
+ * something that the runtime cannot simulate, or has a length above 1e6 m or another number above 1e15. */
 SBF_API sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
 SBF_API void sbr_model_destroy(sbr_model *model);
@@ -140,8 +141,8 @@ SBF_API void sbr_model_destroy(sbr_model *model);
  * NULL. Returns the number of parts. */
 SBF_API uint32_t sbr_model_report_unsupported(
     const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user);
-/* Reports every island of bodies whose scheme and substeps are known to deviate from the energy by more than
- * a tenth (SCHEME_BIASED), likewise. Relaxation has no energy and is not reported. */
+/* Reports every island of bodies whose scheme and substeps have a known error of more than a tenth
+ * (SCHEME_BIASED), in the same way. Relaxation has no energy and is not reported. */
 SBF_API uint32_t sbr_model_report_scheme_bias(
     const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user);
 
@@ -237,9 +238,9 @@ SBF_API void sbr_character_set_drive(
 /* Wanted vertical speed in m/s of a character that swims or flies; others ignore it. 0 keeps the height, or
  * lets it drift while the drive is 0 as well (spec 14.7). Numbers that are not finite are ignored. */
 SBF_API void sbr_character_set_vertical_speed(sbr_world *world, sbr_character_id character, float up);
-/* Moves the character by so much (m, world axes) and turns it (rad, left positive) in the next tick, in place
- * of what it is driven by: its feet step after it, floors carry it and walls keep it out. What is up is for
- * those that swim or fly. Several calls before a tick add up. */
+/* Moves the character by `by` (m, world axes) and turns it (rad, left positive) in the next tick, instead of
+ * its drive. Its feet follow with steps; floors and walls act on it. The vertical part is only for characters
+ * that swim or fly. Several calls before a tick add up. */
 SBF_API void sbr_character_displace(sbr_world *world, sbr_character_id character, sbf_vec3 by, float turn);
 /* Moves the character at once, with soft bodies and feet, at rest relative to its bones. `position` as in the
  * definition. */

@@ -83,17 +83,16 @@ SBF_API sbf_vec3 sbr_character_get_hold_force(
 SBF_API uint32_t sbr_character_find_nearest_vertex(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body, sbr_double3 position);
 
-/* What the pins of one set exert on the body: elastic forces and those of goal springs at the end of the last
- * tick, not its mean. Of a body that hangs at rest: the weight of its free points, upwards. Damping against
- * the pins' own motion is left out. While a body moves, symplectic and heun gain the momentum that weight and
- * reactions give; position_based is off by some per cent of the weight, and of block_descent, which ends its
- * sweeps before forces balance, reactions are right only near rest. */
+/* Force and torque of the pins of one set on the body: elastic forces and goal springs at the end of the last
+ * tick, without damping relative to the pins. For a body that hangs at rest, the weight of its free points,
+ * upwards. With symplectic and heun, weight and reactions equal the change of momentum. With position_based,
+ * the error is some per cent of the weight. With block_descent, reactions are right only near rest. */
 typedef struct sbr_pin_reaction {
   uint32_t pin_set;   /* of the simulated level's pins */
-  int32_t bone;       /* what holds; -1: not a bone */
-  int32_t rigid_body; /* likewise; both -1: the world */
-  uint32_t points;    /* pinned by the set; the first set that pins a point has it */
-  sbf_vec3 about;     /* m, relative to the character's origin: mean of the pinned places */
+  int32_t bone;       /* bone of the set; -1: none */
+  int32_t rigid_body; /* rigid body of the set; -1: none; both -1: the world */
+  uint32_t points;    /* number of points that the set pins; a point counts for the first set */
+  sbf_vec3 about;     /* m, relative to the character's origin: mean of the pinned positions */
   sbf_vec3 force;     /* N, world axes */
   sbf_vec3 torque;    /* N m about `about` */
 } sbr_pin_reaction;

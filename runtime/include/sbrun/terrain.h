@@ -19,8 +19,8 @@ typedef struct sbr_height_field {
   const float *heights_m; /* (rows x columns), columns along +X, rows along +Z */
   uint32_t columns, rows; /* at least 2 each */
   double cell_m;          /* > 0: side of a square */
-  double x;               /* m, world: of the first height */
-  double z;               /* m, likewise */
+  double x;               /* world x of the first height, m */
+  double z;               /* world z of the first height, m */
 } sbr_height_field;
 SBF_API sbr_ground sbr_ground_height_field(const sbr_height_field *field);
 
@@ -47,11 +47,11 @@ typedef struct sbr_obstacle {
       half_sizes; /* box: along its own x, y, z; cylinder (upright): x the radius, y; sphere: x the radius */
   float heading;  /* of a box, rad */
 } sbr_obstacle;
-/* All of them; the host's, and lives as long as the ground does. */
+/* Obstacles of a ground. Owned by the host; must outlive the ground. */
 typedef struct sbr_obstacle_set {
-  const sbr_ground *base;        /* what they stand on */
+  const sbr_ground *base;        /* ground below them */
   const sbr_obstacle *obstacles; /* (count) */
-  uint32_t count;                /* of obstacles */
+  uint32_t count;                /* number of obstacles */
 } sbr_obstacle_set;
 SBF_API sbr_ground sbr_ground_with_obstacles(const sbr_obstacle_set *set);
 

@@ -41,7 +41,7 @@ void sbr_character_set_pivot_leg(sbr_world *world, sbr_character_id character, i
   if (!c || leg >= (int32_t)c->model->rig.leg_count) return;
   sbri_record(world, SBRI_RECORDED_PIVOT, (const double[]){character.value, leg});
   sbri_character_wake(c);
-  ((sbri_gait_state *)sbri_gait(c))->pace.pivot_leg = leg < 0 ? 0 : (uint32_t)leg + 1;
+  ((sbri_gait_state *)sbri_gait(c))->stepping.pivot_leg = leg < 0 ? 0 : (uint32_t)leg + 1;
 }
 
 void sbr_character_play_clip(

@@ -221,7 +221,7 @@ static const float SWINGS_MAX_S = 1, LAGS_MAX_S = 2;
 static float lags_m(const sbr_world *world, const sbri_character *c) {
   sbri_gait_input input = sbri_gait_input_of(world, c, NULL);
   float radius_m = 0.5f * c->scale * c->model->detail.base->rest_size_m;
-  return sbri_gait_jolt(&c->model->rig, sbri_gait(c), &input, radius_m) * input.tick_s / c->scale;
+  return sbri_gait_max_speed_change(&c->model->rig, sbri_gait(c), &input, radius_m) * input.tick_s / c->scale;
 }
 
 /* For an automatic change that the budget does not demand: whether a level without oscillation would miss too
