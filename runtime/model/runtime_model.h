@@ -73,9 +73,9 @@ typedef struct sbri_model_detail {
   const struct sbr_model *base;  /* the first level; of a single model itself */
   struct sbr_model **levels;     /* (level_count) only in the first; "away" has the tables of bones */
   sbr_detail_level *definitions; /* (level_count) only in the first */
-  uint32_t level_count;          /* likewise */
-  uint32_t max_islands;          /* likewise, of a detail level */
-  size_t max_state_size;         /* likewise */
+  uint32_t level_count;          /* only in the first */
+  uint32_t max_islands;          /* only in the first: maximum over the detail levels */
+  size_t max_state_size;         /* only in the first */
   const sbri_sources *
       *sources; /* (level_count of the first) sources per slot; NULL: not both levels are soft */
   const uint32_t *first_vertices; /* (asset->render_meshes.count + 1) first vertex of each mesh */
@@ -142,9 +142,9 @@ static inline sbr_transform sbri_frame_rest(const sbr_model *model, uint32_t fra
                                         : (sbr_transform){{0, 0, 0}, {0, 0, 0, 1}};
 }
 
-/* ---- Looking at what is made ---- */
+/* ---- Access to the tables ---- */
 
-/* Sample of a skin vertex in the island as it is now: its four points with the greatest weights. */
+/* Sample of a skin vertex in the island's current state: its four points with the greatest weights. */
 sbri_sample sbri_sample_of(const sbri_island *island, const sbri_skin *skin, uint32_t vertex);
 /* Fills one lane of a block except its corners. */
 void sbri_tetrahedron_fill(

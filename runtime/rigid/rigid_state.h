@@ -163,8 +163,8 @@ size_t sbri_rigid_work_size(const sbri_rigid_model *model);
 /* Maximum number of contacts in a tick. */
 uint32_t sbri_rigid_contact_capacity(const sbri_rigid_model *model);
 
-/* A body that what pulls on it would swing too fast for the most steps that there are is as if that much
- * heavier, to all but weight. */
+/* Mass factor of a body that joint forces would move too fast even for the maximum number of steps. Its
+ * weight stays. */
 float sbri_rigid_mass_factor(const sbri_rigid_pull *pull, uint32_t body, float step_s);
 
 /* Moments of inertia of a rotated body, in space. */

@@ -22,9 +22,9 @@
 typedef enum sbri_row_kind {
   SBRI_ROW_LOCKED, /* a coordinate at one value */
   SBRI_ROW_LIMIT,  /* unilateral: its impulse is not negative */
-  SBRI_ROW_SPRING, /* a limit with stiffness, likewise */
+  SBRI_ROW_SPRING, /* a limit with stiffness, also unilateral */
   SBRI_ROW_DRIVE,  /* a coordinate's motor, cut to a maximum */
-  SBRI_ROW_TRACK   /* towards an angle of the animated pose, likewise */
+  SBRI_ROW_TRACK   /* a motor towards an angle of the animated pose */
 } sbri_row_kind;
 
 /* Limit of a row's coordinate. */
@@ -128,7 +128,7 @@ typedef struct sbri_tree_step {
 } sbri_tree_step;
 
 typedef struct sbri_rigid_system {
-  sbri_tree_step *steps; /* (step_count) each behind those of what hangs on it */
+  sbri_tree_step *steps; /* (step_count) children before parents */
   uint32_t step_count;
   sbri_node *nodes; /* (node_count) each behind its parent */
   uint32_t node_count;
@@ -138,7 +138,7 @@ typedef struct sbri_rigid_system {
   uint32_t loop_count;
   /* Rows of loops, in this substep: */
   uint32_t loop_row_count, loop_row_capacity;
-  double *responses;   /* (loop_row_capacity + 2, x node_count x 6) what a unit impulse does to every body */
+  double *responses;   /* (loop_row_capacity + 2, x node_count x 6) change of every body by a unit impulse */
   double *loop_matrix; /* (loop_row_capacity^2) its Cholesky factor */
   double *loop_rhs;    /* (loop_row_count) */
 } sbri_rigid_system;
@@ -162,10 +162,10 @@ void sbri_system_factor(sbri_rigid_system *system);
  * active rows). Overwrites b. May be called again with other b and rhs. */
 void sbri_system_solve(sbri_rigid_system *system);
 
-/* Adds what the last solution has done to the balls' impulses and moments. */
+/* Adds the result of the last solution to impulses and moments of the balls. */
 void sbri_system_add_impulses(sbri_rigid_system *system);
 
-/* Lists which rows are active. */
+/* Lists the active rows. */
 void sbri_edge_list_active(sbri_edge *edge);
 
 #endif

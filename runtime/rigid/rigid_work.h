@@ -13,16 +13,16 @@ enum { SBRI_RIGID_HALVINGS = 8, SBRI_RIGID_MAX_SUBSTEPS = 64 };
  * a leapfrog is 2. */
 #define SBRI_RIGID_MAX_SWING 0.8f
 
-/* How a body moves in a substep, if nothing more acts on it. */
+/* Motion of a body in a substep without further forces. */
 typedef struct sbri_part_motion {
   sbr_transform from, to;      /* poses at its begin and end */
-  sbf_vec3 fine_from, fine_to; /* what their places have beyond rounded numbers */
+  sbf_vec3 fine_from, fine_to; /* low-order parts of their positions */
   sbf_vec3 velocity, turn;     /* m/s; rad/s, mean of the substep */
   int32_t node;                /* -1: it is not simulated */
 } sbri_part_motion;
 
-/* A unilateral row and its friction along the step from one pass to the next: at a fraction s of it the force
- * is stiff (into - s way), at least 0, and friction is P - s G, cut to its bound.
+/* A unilateral row and its friction along the step from one iteration to the next. At a fraction s of the
+ * step the force is max(0, stiff (into - s distance)), and friction is P - s G, clamped to its bound.
  */
 typedef struct sbri_contact_search {
   double stiff, into, distance;
@@ -33,12 +33,13 @@ typedef struct sbri_contact_search {
 
 typedef struct sbri_rigid_solving {
   sbri_rigid_system system;
-  sbri_part_motion *motions;   /* (body_count + 1); the last is the anchor, which does not move */
-  sbr_transform *begins;       /* (body_count) poses when the tick began */
-  sbf_vec3 *pulls;             /* (joint_count) N on body b: mean of the last tick, then of the last step */
-  sbri_rigid_body_state *kept; /* (SBRI_RIGID_HALVINGS x body_count) before steps that may be taken again */
-  sbri_ball *balls;            /* (joint_count) likewise: of the edges */
-  sbri_ball_pair *pairs;       /* (joint_count) of those of the tree */
+  sbri_part_motion *motions; /* (body_count + 1); the last is the anchor, which does not move */
+  sbr_transform *begins;     /* (body_count) poses when the tick began */
+  sbf_vec3 *pulls; /* (joint_count) joint force on body b, N: mean of the last tick, then of the last step */
+  sbri_rigid_body_state
+      *kept;             /* (SBRI_RIGID_HALVINGS x body_count) states before steps that may be repeated */
+  sbri_ball *balls;      /* (joint_count) of the edges */
+  sbri_ball_pair *pairs; /* (joint_count) of the edges of the tree */
   sbri_joint_frames *joint_frames; /* (joint_count) of the edges */
   struct {
     sbri_rigid_contact *at;
@@ -50,11 +51,11 @@ typedef struct sbri_rigid_solving {
   } external_list;             /* of the host, with a mass */
   sbri_contact_search *pushes; /* (max_contacts + row_count) of the line search */
   uint32_t push_count;
-  float swings;      /* (rad/s)^2, by what pulled in the tick before: sbri_rigid_swings */
-  float last_step_s; /* length of the step before; 0: there is none */
-  float kick_s;      /* for how long forces act in the step: from the middle of the one before to its own */
-  uint32_t *order, *roots; /* of the tree's making */
-  sbri_row *rows;          /* (row_count), as all that follow: the edges' share them out by joint */
+  float swings;      /* (rad/s)^2, from the joint forces of the previous tick: sbri_rigid_swings */
+  float last_step_s; /* length of the previous step; 0: none */
+  float kick_s;      /* time for which forces act in a step: from the middle of the previous one to its own */
+  uint32_t *order, *roots; /* scratch of building the tree */
+  sbri_row *rows;          /* (row_count), as the arrays below; divided among the edges by joint */
   uint16_t *actives;
   struct {
     double *y, *w, *t, *rhs, *g;

@@ -11,24 +11,24 @@
 #include "shapes/colliders.h"
 
 typedef struct sbri_surroundings {
-  sbr_ground ground; /* both as one, its `user` is this; what the gait asks while colliders are near */
+  sbr_ground ground; /* base and colliders combined, for the gait; its `user` is this struct */
   const sbr_ground *base;
   const sbri_collider_set *colliders; /* NULL: none is near */
   const sbri_girth *girth;
   float scale;
-  double overhead; /* m, world: what is above is not to be stood on */
+  double overhead; /* m, world: surfaces above it are not ground */
 } sbri_surroundings;
 
-/* The surroundings of a body with that rig at `position` (world; y is that of the ground below it). `out`
- * must not be copied. */
+/* Finds the surroundings of a body at `position` (world; y: height of the ground below it). `out` must not be
+ * copied. */
 void sbri_surroundings_find(const sbri_rig *rig, float scale, const sbri_collider_set *colliders,
     const sbr_ground *base, sbr_double3 position, sbri_surroundings *out);
 
 /* Whether a collider of the set is an obstacle and floor for the body. */
 bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider);
 
-/* The collider whose top at (x, z) is within `tolerance` of the height y, as colliders stood when the tick
- * began; false if there is none. */
+/* Finds the collider whose top at (x, z) was within `tolerance` of the height y when the tick began; false if
+ * there is none. */
 bool sbri_surroundings_bearer(
     const sbri_surroundings *around, sbr_double3 position, double tolerance, uint32_t *collider);
 
