@@ -13,10 +13,11 @@ static const float
 static const float CROUCH_S = 0.08f; /* lag of the crouch, and its look-ahead */
 static const float MAX_YAW = 0.8f;   /* rad; bound of the yaw of hips and chest */
 static const float NARROWEST = 0.5f; /* fraction of the reach: minimum distance of feet in the hips' yaw */
-static const float DEEPEST = 0.3f;   /* fraction of a leg's reach: maximum lowering for a foot */
-static const float LOWEST = 0.3f;    /* fraction of a leg's reach: minimum height of a hip above the ground */
-static const float EASY = 0.93f;     /* fraction of the reach for which the body is lowered in a stride */
-static const float UPRIGHT_HZ = 1;   /* critically damped follower */
+static const float EDGE =
+    0.05f; /* fraction of the reach: feet this close to an edge may stand on either side */
+static const float DEEPEST = 0.3f; /* fraction of a leg's reach: maximum lowering for a foot */
+static const float LOWEST = 0.3f;  /* fraction of a leg's reach: minimum height of a hip above the ground */
+static const float EASY = 0.93f;   /* fraction of the reach for which the body is lowered in a stride */
 static const float CLEARANCE_S = 0.25f; /* look-ahead of the belly */
 static const float CLEAR = 0.03f;       /* fraction of the reach: clearance between belly and ground */
 static const float RAISED = 0.1f;       /* fraction of the reach: maximum rise for the belly */
@@ -79,9 +80,44 @@ static float line_yaw(
   return MAX_YAW * yaw / (MAX_YAW + fabsf(yaw)); /* feet may cross, but hips must not rotate with them */
 }
 
+/* Height of a point above the ground on the line through the body along its heading, beside the point: the
+ * smallest one nearby, since a foot often stands at the edge of a stair. */
+static float height_beside(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 point) {
+  float step = EDGE * rig->stand.reach * input->scale, min = 1e30f;
+  float forward = sbri_world_to_body(state, sbri_sub(point, state->motion.position)).z;
+  for (int k = -1; k <= 1; k++) {
+    sbf_vec3 ahead = sbri_body_to_world(state, sbri_vec3(0, 0, forward + (float)k * step));
+    float height = point.y - sbri_ground_below(input, sbri_add(state->motion.position, ahead), NULL).y;
+    if (fabsf(height) < fabsf(min)) min = height;
+  }
+  return min;
+}
+
+/* The same for a foot; one in the air goes from the value where it lifted off to that where it lands. */
+static float foot_height_beside(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, const sbri_foot *foot) {
+  if (foot->planted) return height_beside(rig, state, input, foot->ground);
+  float from = height_beside(rig, state, input, foot->step.from);
+  float to = height_beside(rig, state, input, foot->step.to);
+  return from + sbri_smooth(foot->step.phase) * (to - from);
+}
+
 /* Slope angle between two points at a horizontal distance of `run`. */
 static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
   return run > 1e-6f ? sbri_atan2(b.y - a.y, run) : 0;
+}
+
+/* Slope angle from the right feet to the left. One of two feet is ahead of the other: what the ground rises
+ * between them is no roll, and the body stays upright above a narrow stance. */
+static float feet_roll(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  float width = 2 * rig->stand.half_width * input->scale, min = NARROWEST * rig->stand.reach * input->scale;
+  sbf_vec3 left = {0, 0, 0}, right = {0, 0, 0};
+  if (!feet_center(rig, state, LEFT, &left) || !feet_center(rig, state, RIGHT, &right)) return 0;
+  if (rig->leg_count != 2) return slope(right, left, width);
+  for (uint32_t i = 0; i < 2; i++)
+    (is_of(&rig->legs[i], LEFT) ? &left : &right)->y = foot_height_beside(rig, state, input, &state->feet[i]);
+  return slope(right, left, width > min ? width : min);
 }
 
 static float full_reach(const sbri_leg *leg, float scale) {
@@ -137,6 +173,7 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   float min = state->balance.clearance.value < 0 ? state->balance.clearance.value : 0; /* the belly rises, */
   float max = state->balance.crouch.value < min ? state->balance.crouch.value : min;   /* and sinks slowly */
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->stepping.speed_fraction * CROUCH_S);
+  if (rig->leg_count == 2 && state->posture.rise > 0) ahead.y = state->posture.rise * CROUCH_S;
   *early = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
@@ -211,7 +248,7 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
 static sbri_stance stance_without_lowering(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stance stance = {.root = {state->motion.position, yaw_rotation(state->motion.heading)}};
-  sbf_vec3 center, hind, fore, left, right;
+  sbf_vec3 center, hind, fore;
   bool on_feet = rig->leg_count && feet_center(rig, state, ALL, &center);
   float raised = state->motion.position.y;
   stance.root.position.y =
@@ -223,16 +260,13 @@ static sbri_stance stance_without_lowering(
   float pitch = 0, roll = 0, fraction = rig->gait->body_tilt;
   if (feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
     pitch = fraction * slope(hind, fore, (rig->stand.fore_z - rig->stand.hind_z) * input->scale);
-  if (feet_center(rig, state, LEFT, &left) && feet_center(rig, state, RIGHT, &right))
-    roll = fraction * slope(right, left, 2 * rig->stand.half_width * input->scale);
+  roll = fraction * (rig->leg_count == 2 ? state->balance.roll.value : feet_roll(rig, state, input));
   float sp, cp, sr, cr;
   sbri_sincos(-0.5f * pitch, &sp, &cp);
   sbri_sincos(0.5f * roll, &sr, &cr);
   sbf_quat tilt = sbri_quat_multiply((sbf_quat){sp, 0, 0, cp}, (sbf_quat){0, 0, sr, cr});
-  /* While the body must keep its balance, it tilts about the middle of the hips, so that its mass stays above
-   * the feet; otherwise about the ground between the feet. */
-  sbf_vec3 middle = sbri_vec3(
-      0, state->balance.upright.value * rig->stand.hips_y, 0.5f * (rig->stand.hind_z + rig->stand.fore_z));
+  /* It tilts about the middle of its hips: about the ground it would sway by the height of its hips. */
+  sbf_vec3 middle = sbri_vec3(0, rig->stand.hips_y, 0.5f * (rig->stand.hind_z + rig->stand.fore_z));
   middle = sbri_scale(middle, input->scale);
   sbf_quat heading = stance.root.rotation;
   stance.root.rotation = sbri_quat_normalize(sbri_quat_multiply(heading, tilt));
@@ -288,7 +322,6 @@ void sbri_body_steps_update(const sbri_rig *rig, sbri_gait_state *state, float t
   state->steps = (sbri_body_steps){.tick_s = tick_s,
       .lean = sbri_follower_step_of(LEAN_HZ, 1, 0, tick_s),
       .bend = sbri_follower_step_of(BEND_HZ, 1, 0, tick_s),
-      .upright = sbri_follower_step_of(UPRIGHT_HZ, 1, 0, tick_s),
       .crouch = sbri_follower_step_of(CROUCH_HZ, 1, 0, tick_s)};
   if (head) state->steps.head = sbri_follower_step_of(head->frequency, head->damping_ratio, 0, tick_s);
 }
@@ -325,9 +358,11 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
     state->balance.sway_x = (sbri_lag){stands.x, 0}, state->balance.sway_z = (sbri_lag){stands.z, 0};
   bool at_home = state->stepping.standing_s > 0 && !lifting; /* all feet are at home */
   if (stride) sbri_lag_tick(&state->balance.bent, at_home ? 0 : 1, &steps->bend);
-  sbri_lag_tick(
-      &state->balance.upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &steps->upright);
-  if (!stride) state->balance.upright = (sbri_lag){0, 0};
+  if (rig->leg_count == 2) {
+    float roll = feet_roll(rig, state, input);
+    sbri_lag_tick(&state->balance.roll, roll, &steps->bend);
+    if (!stride) state->balance.roll = (sbri_lag){roll, 0};
+  }
   sbri_stance stance = stance_without_lowering(rig, state, input);
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;

@@ -161,7 +161,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   uint32_t count = 0, groups;
   choice c = {.stride = sbri_stride_of(rig, state, input)};
   state->stepping.in_groups = c.stride.in_groups;
-  state->stepping.quick = c.stride.level && (c.stride.in_groups || c.stride.running);
+  state->stepping.quick = c.stride.even && (c.stride.in_groups || c.stride.running);
   state->stepping.max_half_m = c.stride.speed > 0 ? c.stride.max_half_m : 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];

@@ -68,7 +68,7 @@ typedef struct sbri_clip_layer {
 /* Follower steps of the body for the present tick length, cached. */
 typedef struct sbri_body_steps {
   float tick_s; /* 0: not known yet */
-  sbri_follower_step lean, bend, upright, crouch, head;
+  sbri_follower_step lean, bend, crouch, head;
 } sbri_body_steps;
 
 typedef struct sbri_gait_motion {
@@ -99,7 +99,7 @@ typedef struct sbri_gait_balance {
   sbf_vec3 stand;          /* level offset from the rest pose that puts it over its feet, m */
   sbri_lag sway_x, sway_z; /* sway of the body over its feet, world axes, m */
   sbri_lag crouch;         /* lowering of the body so that its legs reach their feet, m */
-  sbri_lag upright;        /* 1: tilts about its hips; 0: about the ground */
+  sbri_lag roll;           /* slope from the right foot to the left, of a character with two, rad */
   sbri_lag clearance;      /* how far the body may be lowered with its belly above the ground, m; below 0: it
                               has to rise */
   sbri_lag bent;           /* 0: legs may be as straight as in the rest pose; 1: bent for walking */
@@ -237,6 +237,8 @@ void sbri_foot_update_heading(
 typedef struct sbri_foot_circle {
   sbf_vec3 center;
   float radius;
+  float height;  /* of the hip above the ground at the home, m */
+  sbf_vec3 rise; /* of the ground per metre in each direction; 0 where it does not matter */
 } sbri_foot_circle;
 
 /* A foot's home position relative to the body (horizontal), its velocity over the ground, and its circle. */
@@ -256,7 +258,7 @@ typedef struct sbri_stride {
   bool in_groups;    /* feet of a group step together */
   bool balanced;     /* slow enough to slow down rather than lose balance */
   bool running;      /* many legs, too fast to wait for balance */
-  bool level;        /* the ground is level here, ahead and behind */
+  bool even;         /* the ground is even here, ahead and behind */
   float max_half_m;  /* upper bound of half_m, mean over a stride */
   sbri_home homes[SBRI_MAX_LEGS];
 } sbri_stride;

@@ -31,7 +31,10 @@ static const float QUICK_BRAKING = 0.5f; /* factor of that duration for a foot t
 static const float SPEED_GAIN = 0.06f;   /* reaches per duration of a step: speed gained in half a step */
 static const float MIN_NARROW = 1.15f;   /* half soles: minimum distance of feet from the middle */
 static const uint32_t MANY_LEGS = 6;     /* number of legs from which on half of them suffice for balance */
-static const float LEVEL = 0.05f; /* fraction of the reach: maximum height difference of level ground */
+static const float EVEN = 0.05f;         /* fraction of the reach: maximum height difference of even ground */
+static const float STEEP = 0.85f;        /* cosine of the steepest slope that counts as even */
+static const float PROBE = 0.5f;  /* fraction of the reach: distance at which the ground's rise is measured */
+static const float RISING = 0.1f; /* minimum slope that moves the range of feet */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
   sbf_vec3 v = sbri_body_to_world(state, sbri_vec3(state->motion.sideways, 0, state->motion.forward));
@@ -123,9 +126,10 @@ static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, floa
 }
 
 /* Radius of the circle over the ground, about the hip, that a leg's foot can reach while its ankle is at
- * `from` relative to the hip; `offset` receives the horizontal offset of the ankle from the centre. */
+ * `from` relative to the hip; `offset` receives the horizontal offset of the ankle from the centre, and
+ * `hip_height` the hip's height above it. */
 static float reachable_circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 from, float lowered, sbf_vec3 *offset) {
+    uint32_t leg, sbf_vec3 from, float lowered, sbf_vec3 *offset, float *hip_height) {
   const sbri_leg *l = &rig->legs[leg];
   float reach = MAX_REACH * (1 - l->length.soft_reach) * l->length.reach * input->scale;
   float upright = state->posture.lowered - from.y, level = reach * reach - upright * upright;
@@ -137,6 +141,7 @@ static float reachable_circle(const sbri_rig *rig, const sbri_gait_state *state,
     height = upright - state->balance.clearance.value; /* and at most to the belly's clearance */
   if (from.y > 0) height = from.y;
   *offset = sbri_vec3(from.x, 0, from.z);
+  *hip_height = height;
   float square = reach * reach - height * height;
   return square > 0 ? sqrtf(square) : 0;
 }
@@ -148,13 +153,44 @@ static float distance_to_edge(sbf_vec3 offset, float radius, sbf_vec3 direction)
   return (square > 0 ? sqrtf(square) : 0) - along;
 }
 
+/* The same on ground that rises: where a foot on it is as far from the hip as the leg reaches. */
+static float distance_to_rising_edge(const sbri_foot_circle *circle, sbf_vec3 direction) {
+  float rise = sbri_dot(circle->rise, direction);
+  float along = sbri_dot(circle->center, direction) - rise * circle->height, factor = 1 + rise * rise;
+  float square =
+      along * along + factor * (circle->radius * circle->radius - sbri_dot(circle->center, circle->center));
+  return ((square > 0 ? sqrtf(square) : 0) - along) / factor;
+}
+
+/* How the ground rises along the body's velocity near a foot's home; `height` receives that of the ground at
+ * the home. False on ground that is nearly level. */
+static bool ground_rises(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    sbf_vec3 home, sbf_vec3 *rise, float *height) {
+  double unused;
+  float half = PROBE * rig->stand.reach * input->scale;
+  if (sbri_ground_is_flat(input->ground, &unused)) return false;
+  sbf_vec3 direction =
+      sbri_normalize(sbri_body_velocity(state), sbri_body_to_world(state, sbri_vec3(0, 0, 1)));
+  float front = sbri_ground_below(input, sbri_add_scaled(home, direction, half), NULL).y;
+  float back = sbri_ground_below(input, sbri_add_scaled(home, direction, -half), NULL).y;
+  float slope = (front - back) / (2 * half);
+  *rise = sbri_scale(direction, slope);
+  *height = 0.5f * (front + back);
+  return fabsf(slope) > RISING;
+}
+
 sbri_foot_circle sbri_foot_circle_of(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, uint32_t leg, sbf_vec3 arm) {
   const sbri_leg *l = &rig->legs[leg];
   sbri_foot_circle circle;
-  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
-  sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, sbri_add(state->motion.position, arm), true);
-  float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &circle.center);
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root), rise;
+  sbf_vec3 home = sbri_add(state->motion.position, arm);
+  float ground;
+  bool rises = rig->leg_count == 2 && ground_rises(rig, state, input, home, &rise, &ground);
+  sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, home, true);
+  if (rises) from.y += ground - state->feet[leg].ground.y;
+  float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &circle.center, &circle.height);
+  circle.rise = rises ? rise : sbri_vec3(0, 0, 0);
   float length = (l->length.upper + l->length.lower) * input->scale, offset = sbri_length(circle.center);
   if (l->lower < 0) radius = offset + ONE_BONE_RANGE * length;
   circle.radius = radius < offset + MIN_RANGE * length ? offset + MIN_RANGE * length : radius;
@@ -166,8 +202,8 @@ typedef struct foot_range {
   float ahead, behind;
 } foot_range;
 static foot_range foot_range_of(const sbri_foot_circle *circle, sbf_vec3 direction) {
-  return (foot_range){RANGE_USED * distance_to_edge(circle->center, circle->radius, direction),
-      RANGE_USED * distance_to_edge(circle->center, circle->radius, sbri_scale(direction, -1))};
+  return (foot_range){RANGE_USED * distance_to_rising_edge(circle, direction),
+      RANGE_USED * distance_to_rising_edge(circle, sbri_scale(direction, -1))};
 }
 
 float sbri_landing_distance(const sbri_foot_circle *circle, sbf_vec3 direction, float half) {
@@ -199,28 +235,58 @@ static float compute_homes(
   return max;
 }
 
-bool sbri_are_feet_level(const sbri_rig *rig, const sbri_gait_state *state, float scale) {
-  float low = 1e30f, high = -1e30f;
-  for (uint32_t i = 0; i < rig->leg_count; i++) {
-    float y = state->feet[i].planted ? state->feet[i].ground.y : state->feet[i].step.to.y;
-    low = y < low ? y : low, high = y > high ? y : high;
-  }
-  return high - low < LEVEL * rig->stand.reach * scale;
+/* A plane through the ground below the body. */
+typedef struct ground_plane {
+  sbf_vec3 position, normal;
+} ground_plane;
+
+static float height_above(const ground_plane *plane, sbf_vec3 point) {
+  return sbri_dot(sbri_sub(point, plane->position), plane->normal) / plane->normal.y;
 }
 
-/* Whether it stands on level ground that goes on, two legs' lengths ahead and one behind. */
-static bool is_level(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  double unused;
-  if (sbri_ground_is_flat(input->ground, &unused)) return true;
-  float reach = rig->stand.reach * input->scale, level = 0;
-  for (uint32_t i = 0; i < rig->leg_count; i++) level += state->feet[i].ground.y / (float)rig->leg_count;
+/* Whether all feet stand at one height above the plane, or go there. */
+static bool feet_stand_on(
+    const sbri_rig *rig, const sbri_gait_state *state, float scale, const ground_plane *plane) {
+  float low = 1e30f, high = -1e30f;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    const sbri_foot *foot = &state->feet[i];
+    float height = height_above(plane, foot->planted ? foot->ground : foot->step.to);
+    low = height < low ? height : low, high = height > high ? height : high;
+  }
+  return high - low < EVEN * rig->stand.reach * scale;
+}
+
+bool sbri_are_feet_level(const sbri_rig *rig, const sbri_gait_state *state, float scale) {
+  ground_plane level = {.normal = {0, 1, 0}};
+  return feet_stand_on(rig, state, scale, &level);
+}
+
+/* Whether the ground is the plane from one leg's length behind to two ahead. */
+static bool ground_goes_on(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const ground_plane *plane) {
+  float reach = rig->stand.reach * input->scale;
   sbf_vec3 direction =
       sbri_normalize(sbri_body_velocity(state), sbri_body_to_world(state, sbri_vec3(0, 0, 1)));
   for (int k = -1; k <= 2; k++) {
     sbf_vec3 at = sbri_add_scaled(state->motion.position, direction, (float)k * reach);
-    if (fabsf(sbri_ground_below(input, at, NULL).y - level) > LEVEL * reach) return false;
+    if (fabsf(height_above(plane, sbri_ground_below(input, at, NULL))) > EVEN * reach) return false;
   }
-  return sbri_are_feet_level(rig, state, input->scale);
+  return true;
+}
+
+/* Whether it stands on even ground that goes on: level or, with two legs, sloped. */
+static bool is_even(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  double unused;
+  if (sbri_ground_is_flat(input->ground, &unused)) return true;
+  ground_plane level = {.normal = {0, 1, 0}}, slope;
+  for (uint32_t i = 0; i < rig->leg_count; i++)
+    level.position.y += state->feet[i].ground.y / (float)rig->leg_count;
+  if (ground_goes_on(rig, state, input, &level) && feet_stand_on(rig, state, input->scale, &level))
+    return true;
+  if (rig->leg_count != 2) return false;
+  slope.position = sbri_ground_below(input, state->motion.position, &slope.normal);
+  return slope.normal.y > STEEP && slope.normal.y < 1 && ground_goes_on(rig, state, input, &slope) &&
+         feet_stand_on(rig, state, input->scale, &slope);
 }
 
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
@@ -252,8 +318,8 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
         soon = s.speed + SPEED_GAIN * rig->stand.reach * input->scale / step_s;
   float aimed = state->stepping.step_limit * fastest;
   if (soon > aimed) soon = s.speed > aimed ? s.speed : aimed;
-  s.level = is_level(rig, state, input);
-  if (!s.level) soon = s.speed;
+  s.even = is_even(rig, state, input);
+  if (!s.even) soon = s.speed;
   float half_per_second =
       0.5f * s.speed * (groups - 1) * STEP_INTERVAL; /* half a stride per second of a step's duration */
   s.available_s = half_per_second > 0 ? max / half_per_second : 1e6f;
@@ -267,7 +333,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
     float longest = MAX_DURATION * usual > needed_s ? MAX_DURATION * usual : needed_s;
     float widest = SBRI_WIDEST * rig->stand.reach * input->scale /
                    (1 + (groups - 1) * STEP_INTERVAL); /* during a step */
-    if (s.level && longest * soon > widest) longest = widest / soon;
+    if (s.even && longest * soon > widest) longest = widest / soon;
     float speed_ratio = s.speed > 0 ? soon / s.speed : 1;
     s.duration_s = sbri_clamp(0.9f * s.available_s / speed_ratio, MIN_DURATION * usual, longest);
     needed = half_per_second * speed_ratio * s.duration_s;
@@ -296,7 +362,8 @@ static sbri_foot_circle stance_circle(const sbri_rig *rig, const sbri_gait_state
   sbf_vec3 home = sbri_add(state->motion.position, arm);
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, state->feet[leg].ground, false);
-  float radius = reachable_circle(rig, state, input, leg, from, lowered, &stance.center);
+  float radius = reachable_circle(rig, state, input, leg, from, lowered, &stance.center, &stance.height);
+  stance.rise = sbri_vec3(0, 0, 0);
   sbf_vec3 offset = from_hip(rig, state, input->scale, leg, hip, home, true);
   offset.y = 0;
   float length = (l->length.upper + l->length.lower) * input->scale, rest = sbri_length(offset);

@@ -81,7 +81,7 @@ static bool plan_path(
  * legs have no spare time, as on stairs. */
 static void adapt_speed(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, float needed_s) {
-  float easiest = stride->level ? 0 : EASIEST * stride->duration_s;
+  float easiest = stride->even ? 0 : EASIEST * stride->duration_s;
   if (needed_s < easiest) needed_s = easiest; /* one easy step says little of the next */
   float fraction = needed_s > state->stepping.step_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
   state->stepping.step_s += fraction * (needed_s - state->stepping.step_s);
