@@ -248,7 +248,7 @@ int convert_batch(
     return cli_wrong(call, "the folder %s cannot be made: %s", path, strerror(errno));
   for (int i = 0; i < call->input_count; i++) {
     long index = 0;
-    if (!path_of(folder, call->inputs[i], path, sizeof path)) continue; /* checked before */
+    if (!path_of(call, folder, call->inputs[i], path, sizeof path)) continue; /* checked before */
     hash_input(call, call->inputs[i], hash);
     if (is_unchanged(folder, path, hash)) {
       unchanged++;
@@ -268,7 +268,7 @@ int convert_batch(
   printf("%-36s %-10s %-8s %4s %6s %10s %8s\n", "file", "status", "kind", "legs", "bodies", "visits", "s");
   for (int i = 0; i < call->input_count; i++) {
     char name[256], state[32], kind[32] = "", legs[16], bodies[16], visits[32], bytes[32], seconds[32];
-    if (!path_of(folder, call->inputs[i], path, sizeof path) || !read_row(folder, path, row)) continue;
+    if (!path_of(call, folder, call->inputs[i], path, sizeof path) || !read_row(folder, path, row)) continue;
     if (sscanf(row, "%255[^\t]\t%31[^\t]\t%31[^\t]\t%15[^\t]\t%15[^\t]\t%31[^\t]\t%31[^\t]\t%31[^\t]", name,
             state, kind, legs, bodies, visits, bytes, seconds) == 8)
       printf("%-36s %-10s %-8s %4s %6s %10s %8s\n", name, state, kind, legs, bodies, visits, seconds);

@@ -7,7 +7,8 @@
 /* Converts one input to `out`; returns the exit status. */
 typedef int convert_one(cli_call *call, const char *input, const char *out, void *user);
 /* Writes the output path of an input in `folder`; false if it is too long. */
-typedef bool convert_path(const char *folder, const char *input, char *path, size_t size);
+typedef bool convert_path(
+    const cli_call *call, const char *folder, const char *input, char *path, size_t size);
 
 /* Converts all inputs of the call into `folder`, `jobs` at a time (0: one per processor), each in its own
  * process. Skips an input whose bundle exists if the input, the files beside it with its stem, the files

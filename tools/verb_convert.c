@@ -22,11 +22,35 @@
 enum { MAX_PATH = 4096 };
 static const double MIN_BUDGET_US = 1, MAX_BUDGET_US = 1e6, USUAL_BUDGET_US = 100;
 
-/* Writes the output path OUT-DIR/NAME.sbf of an input NAME.ending. */
-static bool path_in(const char *folder, const char *input, char *path, size_t size) {
-  const char *slash = strrchr(input, '/'), *name = slash ? slash + 1 : input, *dot = strrchr(name, '.');
-  int length = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
-  int needed = snprintf(path, size, "%s/%.*s.sbf", folder, length, name);
+/* Name of a file without its folder and ending. */
+typedef struct stem {
+  const char *at;
+  int length;
+} stem;
+
+static stem stem_of(const char *path) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+  return (stem){name, dot && dot != name ? (int)(dot - name) : (int)strlen(name)};
+}
+
+/* Name of the folder that holds a file; empty if the path does not state it. */
+static stem folder_of(const char *path) {
+  const char *end = strrchr(path, '/'), *at = end;
+  while (at && at > path && at[-1] != '/') at--;
+  return (stem){at ? at : path, at ? (int)(end - at) : 0};
+}
+
+/* Writes the output path OUT-DIR/NAME.sbf of an input NAME.ending; OUT-DIR/FOLDER-NAME.sbf if another input
+ * has that name too. */
+static bool path_in(const cli_call *call, const char *folder, const char *input, char *path, size_t size) {
+  stem name = stem_of(input), parent = {"", 0};
+  for (int i = 0; i < call->input_count; i++) {
+    stem other = stem_of(call->inputs[i]);
+    bool same = other.length == name.length && strncmp(other.at, name.at, (size_t)name.length) == 0;
+    if (same && strcmp(call->inputs[i], input) != 0) parent = folder_of(input);
+  }
+  int needed = snprintf(path, size, "%s/%.*s%s%.*s.sbf", folder, parent.length, parent.at,
+      parent.length ? "-" : "", name.length, name.at);
   return needed > 0 && (size_t)needed < size;
 }
 
@@ -137,10 +161,10 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
 static bool prepare_folder(const cli_call *call, const char *folder) {
   char path[MAX_PATH], other[MAX_PATH];
   for (int i = 0; i < call->input_count; i++) {
-    if (!path_in(folder, call->inputs[i], path, sizeof path))
+    if (!path_in(call, folder, call->inputs[i], path, sizeof path))
       return cli_wrong(call, "the path of %s in %s is too long", call->inputs[i], folder), false;
     for (int k = 0; k < i; k++)
-      if (path_in(folder, call->inputs[k], other, sizeof other) && strcmp(path, other) == 0)
+      if (path_in(call, folder, call->inputs[k], other, sizeof other) && strcmp(path, other) == 0)
         return cli_wrong(call, "%s and %s would both become %s: convert them one by one with -o",
                    call->inputs[k], call->inputs[i], path),
                false;
@@ -227,7 +251,8 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     {"-o", "OUT.sbf[z]", "output file; the ending selects XML or packed"},
-    {"--out-dir", "DIR", "write each input to this folder, under its own name; created if missing"},
+    {"--out-dir", "DIR",
+        "write each input to this folder under its own name, or FOLDER-NAME where inputs share one"},
     {"--jobs", "N", "parallel conversions with --out-dir (one per processor)"},
     {"--rig", "FILE", "take the skeleton from this file"},
     {"--forward", "x|-x|y|-y|z|-z", "axis of the input that the character faces (found by its legs)"},

@@ -240,13 +240,16 @@ class Calls(ProgramTest):
         self.assert_empty_folder(but=["cube.obj", "cube.sbf", "CUBE.SBFZ"])
 
     def test_inputs_of_one_name_do_not_replace_each_other(self):
-        for folder in ("a", "b"):
-            os.mkdir(self.path(folder))
+        for folder in ("a", "b", "c/a"):
+            os.makedirs(self.path(folder))
             write_bytes(self.path(folder + "/cube.obj"), CUBE)
-        message = self.fails(FAILED, "convert", self.path("a/cube.obj"), self.path("b/cube.obj"), "--out-dir",
-                             self.path("out"))
+        write_bytes(self.path("b/other.obj"), CUBE)
+        one, two, three = (self.path(name) for name in ("a/cube.obj", "b/cube.obj", "c/a/cube.obj"))
+        message = self.fails(FAILED, "convert", one, three, "--out-dir", self.path("out"))
         self.assertIn("would both become", message)
-        self.assert_empty_folder(but=["a", "b"])
+        self.assert_empty_folder(but=["a", "b", "c"])
+        self.good("convert", one, two, self.path("b/other.obj"), "--out-dir", self.path("out"), "--no-build")
+        self.assertEqual(sorted(os.listdir(self.path("out"))), [".sbfmt", "a-cube.sbf", "b-cube.sbf", "other.sbf", "summary.tsv"])
 
     def test_the_folder_of_many_is_made(self):
         mesh, folder = write_bytes(self.path("cube.obj"), CUBE), self.path("out")
