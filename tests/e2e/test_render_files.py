@@ -212,8 +212,8 @@ class Render(ProgramTest):
             with self.subTest(name):
                 red, said, caption = self.red_of_box(image)
                 self.assertEqual(red, 0)
-                self.assertRegex(said, f"warning: the image 'red.png' is not drawn, .*{reason}.*IMAGE_NOT_DRAWN")
-                self.assertRegex(caption, f"The image 'red.png' is not drawn, .*{reason}")
+                self.assertRegex(said, f"warning: the image 'red.png' is not drawn.*{reason}.*IMAGE_NOT_DRAWN")
+                self.assertRegex(caption, f"The image 'red.png' is not drawn.*{reason}")
 
     def test_it_is_seen_from_where_one_likes(self):
         usual, same, above = (self.draw("a.png", *SMALL, "--view", view) for view in ("41.25,14.9", "41.25,14.9", "200,70"))
