@@ -158,7 +158,7 @@ class SkinSections(ProgramTest):
         self.assertEqual({n: m for n, m in moduli(again).items() if m != "20000"}, {"tail2": "1200000", "head": "30000"})
         self.good("build", self.calf, "-o", again, "--material", "tail2=rubber")
         self.assertEqual({n: m for n, m in moduli(again).items() if m != moduli(self.calf)[n]}, {"tail2": "1200000"})
-        self.assertIn("no soft body or bone 'tail9'", self.fails(2, "build", out, "-o", again, "--material", "tail9=fat"))
+        self.assertIn("no soft body or bone has the name 'tail9'", self.fails(2, "build", out, "-o", again, "--material", "tail9=fat"))
 
     def test_what_is_painted_on_the_skin_is_held(self):
         out, again = self.path("held.sbf"), self.path("again.sbf")

@@ -81,7 +81,8 @@ for (const [what, call] of Object.entries({
   scheme: () => whole.asset.model({ scheme: 'implicit' }),
 })) throws(what, TypeError, new RegExp(what), call);
 throws('XML', SbfmtError, /sbfmt pack/, () => sbfmt.asset(new TextEncoder().encode('<?xml version="1.0"?>')));
-throws('another kind of file', SbfmtError, /sbfmt convert/, () => sbfmt.asset(new TextEncoder().encode('glTF')));
+throws('another kind of file', SbfmtError, /sbfmt convert/, () => sbfmt.asset(new TextEncoder().encode('o cube')));
+throws('a glTF file that was cut short', SbfmtError, /shorter than its header/, () => sbfmt.asset(new TextEncoder().encode('glTF')));
 throws('more than there can be', SbfmtError, /4 GiB/, () => sbfmt.room(2 ** 33));
 const refused = async (what, code, source) => {
   try {

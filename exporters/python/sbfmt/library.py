@@ -52,7 +52,7 @@ class LoadOptions(Structure):
                 ("name", c_char_p), ("extensions", POINTER(c_char_p)), ("extension_count", c_uint32),
                 ("selection", c_void_p), ("copy_file", c_bool), ("read_bytes", POINTER(c_uint64)), ("outline", c_bool),
                 ("mendable", c_bool), ("given_lists", POINTER(GivenList)), ("given_list_count", c_uint32),
-                ("report", Report), ("user", c_void_p)]
+                ("report", Report), ("user", c_void_p), ("with_images", c_bool)]
 
 
 class SaveOptions(Structure):
@@ -107,7 +107,8 @@ class FixResult(Structure):
 
 class ExportOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("report", Report), ("user", c_void_p),
-                ("render_level", c_uint32), ("folder", ctypes.c_char_p), ("motion", c_void_p)]
+                ("render_level", c_uint32), ("folder", ctypes.c_char_p), ("motion", c_void_p), ("soft_bodies", c_bool),
+                ("store", c_bool), ("compression", c_int), ("images", c_void_p)]
 
 
 class ConvertStance(Structure):
