@@ -95,7 +95,7 @@ static bool note_pass(void *user, const char *pass, double done) {
   stuffing *s = user;
   (void)done;
   if (s->begin_s == 0 && strcmp(pass, "levels") == 0) s->begin_s = processor_s();
-  if (strcmp(pass, "the check of what was made") == 0) s->end_s = processor_s();
+  if (strcmp(pass, "the check of the result") == 0) s->end_s = processor_s();
   return true;
 }
 

@@ -54,7 +54,7 @@ class Attachments(ProgramTest):
         self.assertEqual(self.json_of("info", self.path("out.sbf"))["attachments"], 1)
 
     def test_what_is_not_there_is_said(self):
-        for wish, words in (("flesh=heart", "called 'heart'"), ("heart=inside", "called 'heart'"),
+        for wish, words in (("flesh=heart", "'heart': no object"), ("heart=inside", "'heart'"),
                             ("flesh=flesh", "to itself")):
             self.assertIn(words, self.fails(1, "convert", self.cubes, "-o", self.path("out.sbf"), "--attach", wish))
         self.assertIn("belly=ribs", self.fails(2, "convert", self.cubes, "-o", self.path("out.sbf"), "--attach", "flesh"))

@@ -18,6 +18,7 @@ static const float EDGE =
 static const float DEEPEST = 0.3f; /* fraction of a leg's reach: maximum lowering for a foot */
 static const float LOWEST = 0.3f;  /* fraction of a leg's reach: minimum height of a hip above the ground */
 static const float EASY = 0.93f;   /* fraction of the reach for which the body is lowered in a stride */
+static const float UPRIGHT_HZ = 1; /* critically damped follower */
 static const float CLEARANCE_S = 0.25f; /* look-ahead of the belly */
 static const float CLEAR = 0.03f;       /* fraction of the reach: clearance between belly and ground */
 static const float RAISED = 0.1f;       /* fraction of the reach: maximum rise for the belly */
@@ -173,7 +174,8 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   float min = state->balance.clearance.value < 0 ? state->balance.clearance.value : 0; /* the belly rises, */
   float max = state->balance.crouch.value < min ? state->balance.crouch.value : min;   /* and sinks slowly */
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->stepping.speed_fraction * CROUCH_S);
-  if (rig->leg_count == 2 && state->posture.rise > 0) ahead.y = state->posture.rise * CROUCH_S;
+  if (rig->leg_count == 2 && state->stepping.in_groups && state->posture.rise > 0)
+    ahead.y = state->posture.rise * CROUCH_S;
   *early = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
@@ -265,8 +267,11 @@ static sbri_stance stance_without_lowering(
   sbri_sincos(-0.5f * pitch, &sp, &cp);
   sbri_sincos(0.5f * roll, &sr, &cr);
   sbf_quat tilt = sbri_quat_multiply((sbf_quat){sp, 0, 0, cp}, (sbf_quat){0, 0, sr, cr});
-  /* It tilts about the middle of its hips: about the ground it would sway by the height of its hips. */
-  sbf_vec3 middle = sbri_vec3(0, rig->stand.hips_y, 0.5f * (rig->stand.hind_z + rig->stand.fore_z));
+  /* Two legs, and others while they must keep their balance, tilt about the middle of the hips, so that the
+   * mass stays above the feet; otherwise about the ground between the feet. */
+  float about_hips = rig->leg_count == 2 ? 1 : state->balance.upright.value;
+  sbf_vec3 middle =
+      sbri_vec3(0, about_hips * rig->stand.hips_y, 0.5f * (rig->stand.hind_z + rig->stand.fore_z));
   middle = sbri_scale(middle, input->scale);
   sbf_quat heading = stance.root.rotation;
   stance.root.rotation = sbri_quat_normalize(sbri_quat_multiply(heading, tilt));
@@ -322,6 +327,7 @@ void sbri_body_steps_update(const sbri_rig *rig, sbri_gait_state *state, float t
   state->steps = (sbri_body_steps){.tick_s = tick_s,
       .lean = sbri_follower_step_of(LEAN_HZ, 1, 0, tick_s),
       .bend = sbri_follower_step_of(BEND_HZ, 1, 0, tick_s),
+      .upright = sbri_follower_step_of(UPRIGHT_HZ, 1, 0, tick_s),
       .crouch = sbri_follower_step_of(CROUCH_HZ, 1, 0, tick_s)};
   if (head) state->steps.head = sbri_follower_step_of(head->frequency, head->damping_ratio, 0, tick_s);
 }
@@ -358,9 +364,12 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
     state->balance.sway_x = (sbri_lag){stands.x, 0}, state->balance.sway_z = (sbri_lag){stands.z, 0};
   bool at_home = state->stepping.standing_s > 0 && !lifting; /* all feet are at home */
   if (stride) sbri_lag_tick(&state->balance.bent, at_home ? 0 : 1, &steps->bend);
+  sbri_lag_tick(
+      &state->balance.upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &steps->upright);
+  if (!stride) state->balance.upright = (sbri_lag){0, 0};
   if (rig->leg_count == 2) {
     float roll = feet_roll(rig, state, input);
-    sbri_lag_tick(&state->balance.roll, roll, &steps->bend);
+    sbri_lag_tick(&state->balance.roll, roll, &steps->lean);
     if (!stride) state->balance.roll = (sbri_lag){roll, 0};
   }
   sbri_stance stance = stance_without_lowering(rig, state, input);

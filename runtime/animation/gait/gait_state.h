@@ -68,7 +68,7 @@ typedef struct sbri_clip_layer {
 /* Follower steps of the body for the present tick length, cached. */
 typedef struct sbri_body_steps {
   float tick_s; /* 0: not known yet */
-  sbri_follower_step lean, bend, crouch, head;
+  sbri_follower_step lean, bend, upright, crouch, head;
 } sbri_body_steps;
 
 typedef struct sbri_gait_motion {
@@ -99,6 +99,7 @@ typedef struct sbri_gait_balance {
   sbf_vec3 stand;          /* level offset from the rest pose that puts it over its feet, m */
   sbri_lag sway_x, sway_z; /* sway of the body over its feet, world axes, m */
   sbri_lag crouch;         /* lowering of the body so that its legs reach their feet, m */
+  sbri_lag upright;        /* 1: tilts about its hips; 0: about the ground */
   sbri_lag roll;           /* slope from the right foot to the left, of a character with two, rad */
   sbri_lag clearance;      /* how far the body may be lowered with its belly above the ground, m; below 0: it
                               has to rise */

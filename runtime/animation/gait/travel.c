@@ -21,7 +21,7 @@ void sbri_gait_arrive(const sbri_rig *rig, void *memory, const sbri_gait_input *
   memset(state->feet, 0, sizeof state->feet);
   for (uint32_t i = 0; i < rig->leg_count; i++) state->feet[i].steps_taken = steps[i];
   state->balance.sway_x = state->balance.sway_z = state->balance.crouch = state->balance.roll =
-      (sbri_lag){0, 0};
+      state->balance.upright = (sbri_lag){0, 0};
   state->balance.clearance = state->balance.bent = (sbri_lag){0, 0};
   state->stepping.waiting_s = 0;
   state->stepping.since_lift_m = 1e6f;
