@@ -156,6 +156,7 @@ static float distance_to_edge(sbf_vec3 offset, float radius, sbf_vec3 direction)
 /* The same on ground that rises: where a foot on it is as far from the hip as the leg reaches. */
 static float distance_to_rising_edge(const sbri_foot_circle *circle, sbf_vec3 direction) {
   float rise = sbri_dot(circle->rise, direction);
+  if (rise == 0) return distance_to_edge(circle->center, circle->radius, direction);
   float along = sbri_dot(circle->center, direction) - rise * circle->height, factor = 1 + rise * rise;
   float square =
       along * along + factor * (circle->radius * circle->radius - sbri_dot(circle->center, circle->center));
