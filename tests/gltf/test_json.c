@@ -86,7 +86,7 @@ START_TEST(test_depth_and_names_are_bounded)
 }
 END_TEST
 
-START_TEST(test_every_failing_allocation_is_told)
+START_TEST(test_every_failing_allocation_is_reported)
 {
   const char *text = "{\"a\":[1,[2,3],{\"b\":\"c\"}],\"d\":{\"e\":[{},[],\"\"]}}";
   bool done = false;
@@ -113,7 +113,7 @@ static Suite *json_suite(void) {
   tcase_add_test(c, test_values_are_read);
   tcase_add_test(c, test_what_is_not_json_is_refused_at_its_place);
   tcase_add_test(c, test_depth_and_names_are_bounded);
-  tcase_add_test(c, test_every_failing_allocation_is_told);
+  tcase_add_test(c, test_every_failing_allocation_is_reported);
   suite_add_tcase(suite, c);
   return suite;
 }

@@ -130,7 +130,7 @@ static void expect(const char *from, const char *to, sbf_code code) {
   free(bytes);
 }
 
-START_TEST(test_faults_are_told_by_their_codes)
+START_TEST(test_faults_have_their_codes)
 {
   expect("glTF", "glTG", SBF_CODE_GLTF_SYNTAX);
   expect("\"SBF_soft_body\":", "\"SBF_soft_bodx\":", SBF_CODE_GLTF_NO_SOFT_BODY);
@@ -140,7 +140,7 @@ START_TEST(test_faults_are_told_by_their_codes)
 }
 END_TEST
 
-START_TEST(test_every_failing_allocation_is_told)
+START_TEST(test_every_failing_allocation_is_reported)
 {
   size_t size;
   char *bytes = small_file(&size);
@@ -186,8 +186,8 @@ static Suite *soft_body_glb_suite(void) {
   tcase_add_test(c, test_equal_assets_give_equal_bytes);
   tcase_add_test(c, test_damage_is_refused_or_keeps_the_promises);
   tcase_add_test(c, test_every_shorter_file_is_refused);
-  tcase_add_test(c, test_faults_are_told_by_their_codes);
-  tcase_add_test(c, test_every_failing_allocation_is_told);
+  tcase_add_test(c, test_faults_have_their_codes);
+  tcase_add_test(c, test_every_failing_allocation_is_reported);
   suite_add_tcase(suite, c);
   return suite;
 }
