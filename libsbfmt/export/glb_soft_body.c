@@ -416,7 +416,7 @@ static void write_members(writer *w, const sbfi_element_path *path) {
     else
       write_value(w, path, field);
   }
-  /* A mesh is the first member of no element, so that an address names one object. */
+  /* No element with a source begins with another one, so an address identifies an object. */
   if (source) sbfi_export_print(&w->text, "%s\"gltf\":", comma), sbfi_text_string(&w->text, source->text);
   sbfi_text_char(&w->text, '}');
 }

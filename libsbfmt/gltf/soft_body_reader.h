@@ -44,8 +44,8 @@ bool sbfi_gltf_is_borrowed(const sbfi_json *json);
  * the limits. */
 bool sbfi_gltf_count(
     const sbfi_gltf_reader *r, const sbfi_json *json, const sbfi_gltf_list *list, uint32_t *count);
-/* Reads a list that is not borrowed into memory of `arena`; NULL, with the error set, if it cannot; also for
- * an empty list, without an error. */
+/* Reads a list that is not borrowed into memory of `arena`; an empty list gives NULL. False, with the error
+ * set, if it is malformed or memory runs out. */
 bool sbfi_gltf_read_list(sbfi_gltf_reader *r, const sbfi_json *json, const sbfi_gltf_list *list,
     sbfi_arena *arena, const void **items, uint32_t *count);
 
