@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tarfile
 
-CORE_HEADERS = {"sbfmt/base.h", "sbfmt/codes.h", "sbfmt/model.h", "sbfmt/asset.h", "sbfmt/packed.h", "sbfmt/mechanics.h"}
+CORE_HEADERS = {"sbfmt/base.h", "sbfmt/codes.h", "sbfmt/model.h", "sbfmt/asset.h", "sbfmt/packed.h", "sbfmt/gltf.h",
+                "sbfmt/mechanics.h"}
 # What an engine's program may need at run time.
 ENGINE_NEEDS = re.compile(r"^(lib(z|m|c)\.so\.\d+|ld-linux.*|libsbrun\.so\..*|libsbfmt-(core|mechanics)\.so\..*)$")
 
