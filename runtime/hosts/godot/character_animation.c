@@ -106,11 +106,11 @@ static bool read_request(
 
 static bool has_player(soft_character *one) {
   if (!one->world) return false;
-  if (one->player) return true;
-  one->player = calloc(1, sizeof *one->player);
-  if (!one->player) return gd_error("no memory for a character's clips"), false;
-  for (uint32_t i = 0; i < CLIP_LAYERS; i++) one->player->layers[i].now.clip = SBF_NONE;
-  one->player->tick = sbr_world_get_tick_count(one->world);
+  if (one->clip_player) return true;
+  one->clip_player = calloc(1, sizeof *one->clip_player);
+  if (!one->clip_player) return gd_error("no memory for a character's clips"), false;
+  for (uint32_t i = 0; i < CLIP_LAYERS; i++) one->clip_player->layers[i].now.clip = SBF_NONE;
+  one->clip_player->tick = sbr_world_get_tick_count(one->world);
   return true;
 }
 
@@ -135,8 +135,9 @@ CALL(queue) {
 
 static const clip_layer *layer_of(const soft_character *one, const gd_variant *layer) {
   int64_t number = gd_type(layer) == GDEXTENSION_VARIANT_TYPE_NIL ? 0 : gd_as_int(layer);
-  return one->world && one->player && number >= 0 && number < CLIP_LAYERS ? &one->player->layers[number]
-                                                                          : NULL;
+  return one->world && one->clip_player && number >= 0 && number < CLIP_LAYERS
+             ? &one->clip_player->layers[number]
+             : NULL;
 }
 
 CALL(get_current_clip) {

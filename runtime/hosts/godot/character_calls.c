@@ -27,9 +27,9 @@ CALL(teleport) {
   UNUSED;
   if (!one->world) return;
   soft_character_set_position(one, gd_as_vector3(arguments[0]), (float)gd_as_float(arguments[1]));
-  one->placed = true;
+  one->placement.is_placed = true;
   soft_character_follow(one);
-  physics_parts_move(one->parts, one);
+  physics_parts_move(one->physics.parts, one);
 }
 
 CALL(reset_pose) {
@@ -37,9 +37,9 @@ CALL(reset_pose) {
   UNUSED;
   if (!one->world) return;
   sbr_character_reset(one->world, one->id);
-  one->is_grabbed = false;
+  one->grab.is_active = false;
   soft_character_set_loose_position(one);
-  one->stale = true;
+  one->is_mesh_stale = true;
 }
 
 CALL(get_travelled) {
@@ -143,7 +143,7 @@ CALL(get_mesh_instance) {
 /* Low and high corner of its bounds at rest, in the node's space, as drawn by the editor. */
 CALL(get_rest_bounds) {
   soft_character *one = self;
-  sbf_vec3 a = one->low, b = one->high;
+  sbf_vec3 a = one->bounds.low, b = one->bounds.high;
   UNUSED;
   gd_assign(result, gd_aabb_value((gd_aabb){a, {b.x - a.x, b.y - a.y, b.z - a.z}}));
 }

@@ -79,7 +79,7 @@ CALL(apply_force) {
 static bool hold(soft_character *one, sbf_vec3 target) {
   sbf_diagnostic error;
   sbr_soft_hold drawn = sbr_default_soft_hold();
-  surface_vertex at = one->grabbed;
+  surface_vertex at = one->grab.vertex;
   drawn.target = (sbr_double3){(double)target.x + (double)at.position.x,
       (double)target.y + (double)at.position.y, (double)target.z + (double)at.position.z};
   sbf_status status = sbr_character_hold_vertex(one->world, one->id, at.soft_body, at.vertex, &drawn, &error);
@@ -90,28 +90,28 @@ static bool hold(soft_character *one, sbf_vec3 target) {
 CALL(release) {
   soft_character *one = self;
   UNUSED;
-  if (one->world && one->is_grabbed)
-    sbr_character_release_vertex(one->world, one->id, one->grabbed.soft_body, one->grabbed.vertex);
-  one->is_grabbed = false;
+  if (one->world && one->grab.is_active)
+    sbr_character_release_vertex(one->world, one->id, one->grab.vertex.soft_body, one->grab.vertex.vertex);
+  one->grab.is_active = false;
 }
 
 CALL(grab) {
   soft_character *one = self;
   sbf_vec3 point = gd_as_vector3(arguments[0]);
   release(self, NULL, NULL);
-  if (one->world && find_vertex(one, "grab", point, &one->grabbed)) {
-    sbf_vec3 *arm = &one->grabbed.position; /* from the point to the vertex from now on */
+  if (one->world && find_vertex(one, "grab", point, &one->grab.vertex)) {
+    sbf_vec3 *arm = &one->grab.vertex.position; /* from the point to the vertex from now on */
     *arm = (sbf_vec3){arm->x - point.x, arm->y - point.y, arm->z - point.z};
-    one->is_grabbed = hold(one, point);
+    one->grab.is_active = hold(one, point);
   }
-  gd_assign(result, gd_bool(one->is_grabbed));
+  gd_assign(result, gd_bool(one->grab.is_active));
 }
 
 CALL(drag) {
   soft_character *one = self;
   UNUSED;
   if (!one->world) return;
-  if (!one->is_grabbed)
+  if (!one->grab.is_active)
     soft_character_error(one, "drag: nothing is grabbed: call grab first and check its result");
   else
     hold(one, gd_as_vector3(arguments[0]));
@@ -120,7 +120,7 @@ CALL(drag) {
 CALL(is_grabbed) {
   const soft_character *one = self;
   UNUSED;
-  gd_assign(result, gd_bool(one->is_grabbed));
+  gd_assign(result, gd_bool(one->grab.is_active));
 }
 
 const gd_method soft_character_grab_methods[] = {

@@ -45,47 +45,49 @@ static bool middle_of(const soft_character *one, double middle[3]) {
 }
 
 void soft_character_loose_begin(soft_character *one) {
-  double middle[3], ground = soft_character_ground_height(one, one->put.origin.x, one->put.origin.z);
-  one->frame = (sbr_double3){one->put.origin.x, 0, one->put.origin.z};
-  one->middle = (sbf_vec3){0, 0, 0};
+  double middle[3], ground = soft_character_ground_height(
+                        one, one->placement.shown_at.origin.x, one->placement.shown_at.origin.z);
+  one->loose.frame = (sbr_double3){one->placement.shown_at.origin.x, 0, one->placement.shown_at.origin.z};
+  one->loose.middle = (sbf_vec3){0, 0, 0};
   if (!middle_of(one, middle)) return;
-  sbf_vec3 off = {
-      (float)(middle[0] - one->frame.x), (float)(middle[1] - ground), (float)(middle[2] - one->frame.z)};
-  gd_transform back = upright((sbf_vec3){0, 0, 0}, -transform_heading(&one->put), 1);
-  one->middle = placed_vector(&back, off);
+  sbf_vec3 off = {(float)(middle[0] - one->loose.frame.x), (float)(middle[1] - ground),
+      (float)(middle[2] - one->loose.frame.z)};
+  gd_transform back = upright((sbf_vec3){0, 0, 0}, -transform_heading(&one->placement.shown_at), 1);
+  one->loose.middle = placed_vector(&back, off);
 }
 
 /* From the node to the centre, in the node's rotation. */
 static sbf_vec3 arm_of(const soft_character *one) {
-  gd_transform turn = upright((sbf_vec3){0, 0, 0}, transform_heading(&one->put), 1);
-  return placed_vector(&turn, one->middle);
+  gd_transform turn = upright((sbf_vec3){0, 0, 0}, transform_heading(&one->placement.shown_at), 1);
+  return placed_vector(&turn, one->loose.middle);
 }
 
 bool soft_character_loose_follow(soft_character *one) {
   double middle[3];
-  if (!one->loose || !middle_of(one, middle)) return false;
+  if (!one->loose.is_loose || !middle_of(one, middle)) return false;
   sbf_vec3 arm = arm_of(one);
-  one->put.origin = (sbf_vec3){(float)(middle[0] - (double)arm.x), (float)(middle[1] - (double)arm.y),
-      (float)(middle[2] - (double)arm.z)};
+  one->placement.shown_at.origin = (sbf_vec3){(float)(middle[0] - (double)arm.x),
+      (float)(middle[1] - (double)arm.y), (float)(middle[2] - (double)arm.z)};
   return true;
 }
 
 /* Iterates, because the height of the frame is relative to the ground below it. */
 bool soft_character_set_loose_position(soft_character *one) {
   double middle[3], wanted[3];
-  if (!one->loose) return false;
-  sbf_vec3 arm = arm_of(one), put = one->put.origin;
+  if (!one->loose.is_loose) return false;
+  sbf_vec3 arm = arm_of(one), put = one->placement.shown_at.origin;
   wanted[0] = (double)put.x + (double)arm.x;
   wanted[1] = fmax((double)put.y, soft_character_ground_height(one, put.x, put.z)) + (double)arm.y;
   wanted[2] = (double)put.z + (double)arm.z;
   for (int i = 0; i < TRIES; i++) {
-    sbr_character_teleport(one->world, one->id, one->frame, transform_heading(&one->put));
+    sbr_character_teleport(
+        one->world, one->id, one->loose.frame, transform_heading(&one->placement.shown_at));
     if (!middle_of(one, middle)) return false;
     double x = wanted[0] - middle[0], y = wanted[1] - middle[1], z = wanted[2] - middle[2];
     if (x * x + y * y + z * z < 1e-12) break;
-    double was = soft_character_ground_height(one, one->frame.x, one->frame.z);
-    one->frame.x += x, one->frame.z += z;
-    one->frame.y += y + was - soft_character_ground_height(one, one->frame.x, one->frame.z);
+    double was = soft_character_ground_height(one, one->loose.frame.x, one->loose.frame.z);
+    one->loose.frame.x += x, one->loose.frame.z += z;
+    one->loose.frame.y += y + was - soft_character_ground_height(one, one->loose.frame.x, one->loose.frame.z);
   }
   return true;
 }

@@ -24,43 +24,43 @@ static void measure(soft_character *one) {
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
     grow(&low, &high, &asset->soft_bodies.at[i].surface.positions);
   if (!(low.x <= high.x)) low = (sbf_vec3){-0.5f, 0, -0.5f}, high = (sbf_vec3){0.5f, 1, 0.5f};
-  one->low = low;
-  one->high = high;
+  one->bounds.low = low;
+  one->bounds.high = high;
 }
 
 void soft_character_unmake(soft_character *one) {
   character_mesh_free(one->mesh);
-  physics_parts_free(one->parts);
+  physics_parts_free(one->physics.parts);
   shared_world_leave(one);
-  physics_ground_free(one->ground);
+  physics_ground_free(one->physics.ground);
   soft_model_release(one->model);
   one->mesh = NULL;
-  one->parts = NULL;
-  one->is_grabbed = false;
-  one->ground = NULL;
+  one->physics.parts = NULL;
+  one->grab.is_active = false;
+  one->physics.ground = NULL;
   one->model = NULL;
-  one->placed = false;
+  one->placement.is_placed = false;
 }
 
 static bool make_world(soft_character *one) {
   sbr_world_definition world = sbr_default_world_definition();
   sbr_character_definition character = sbr_default_character_definition();
   sbf_diagnostic error;
-  gd_transform node_transform = one->put;
+  gd_transform node_transform = one->placement.shown_at;
   one->scale = transform_scale(&node_transform);
-  one->detail = SOFT_DETAIL_UNKNOWN;
-  one->posture = SBR_POSTURE_UPRIGHT;
-  one->loose = soft_asset_is_loose(one->model->asset);
+  one->detail_state = SOFT_DETAIL_UNKNOWN;
+  one->movement.posture = SBR_POSTURE_UPRIGHT;
+  one->loose.is_loose = soft_asset_is_loose(one->model->asset);
   measure(one);
-  one->ground = physics_ground_make();
-  if (!one->ground) {
+  one->physics.ground = physics_ground_make();
+  if (!one->physics.ground) {
     gd_error("no memory for a character");
     return false;
   }
-  physics_ground_level(one->ground, one->flat_y);
-  character.ground = one->settings.ground == SOFT_GROUND_FLAT && !one->editor
-                         ? sbr_ground_flat(one->flat_y)
-                         : physics_ground_of(one->ground);
+  physics_ground_level(one->physics.ground, one->placement.flat_ground_y);
+  character.ground = one->settings.ground == SOFT_GROUND_FLAT && !one->is_in_editor
+                         ? sbr_ground_flat(one->placement.flat_ground_y)
+                         : physics_ground_of(one->physics.ground);
   if (one->settings.use_threads) world.tasks = worker_pool_tasks();
   world.control_tick_s = one->model->asset->environment.control_tick;
   world.has_gravity = one->model->options.has_gravity;
@@ -86,7 +86,7 @@ typedef struct kept_state {
 
 static kept_state keep(const soft_character *one) {
   kept_state kept = {0};
-  if (!one->world || !one->placed || shared_world_count(one->shared) > 1) return kept;
+  if (!one->world || !one->placement.is_placed || shared_world_count(one->shared) > 1) return kept;
   kept.size = sbr_world_get_snapshot_size(one->world);
   kept.bytes = malloc(kept.size);
   if (kept.bytes && sbr_world_save_snapshot(one->world, kept.bytes, kept.size) != SBF_OK) {
@@ -97,15 +97,15 @@ static kept_state keep(const soft_character *one) {
 }
 
 void soft_character_make(soft_character *one) {
-  soft_asset *asset = gd_class_instance(&soft_asset_class, gd_as_object(&one->asset_value));
+  soft_asset *asset = gd_class_instance(&soft_asset_class, gd_as_object(&one->resources.asset));
   kept_state kept = keep(one);
-  bool was_placed = one->placed;
-  sbr_double3 frame = one->frame;
+  bool was_placed = one->placement.is_placed;
+  sbr_double3 frame = one->loose.frame;
   gd_variant answer = GD_CALL(&one->node, "is_inside_tree");
   bool inside = gd_take_bool(answer);
   if (inside && !was_placed) {
-    one->put = soft_character_transform(one);
-    one->flat_y = one->put.origin.y;
+    one->placement.shown_at = soft_character_transform(one);
+    one->placement.flat_ground_y = one->placement.shown_at.origin.y;
   }
   soft_character_unmake(one);
   pose_driver_forget(one);
@@ -119,29 +119,29 @@ void soft_character_make(soft_character *one) {
     options.substeps = (uint32_t)s->substeps;
     options.free = s->free_bodies;
     options.has_gravity = s->gravity_scale != 1;
-    options.detail_levels = s->detail == SOFT_DETAIL_AUTOMATIC && !one->editor;
+    options.detail_levels = s->detail == SOFT_DETAIL_AUTOMATIC && !one->is_in_editor;
     options.gravity = (sbf_vec3){k * g.x, k * g.y, k * g.z};
     one->model =
         pose_driver_is_used(one) ? soft_model_hold_posed(asset, &options) : soft_model_hold(asset, &options);
     if (one->model && make_world(one)) {
       /* A bundle of the same structure keeps its state; another one begins at the same position. */
       if (kept.bytes && sbr_world_restore_snapshot(one->world, kept.bytes, kept.size) == SBF_OK) {
-        one->placed = true;
-        one->frame = frame;
+        one->placement.is_placed = true;
+        one->loose.frame = frame;
         if (s->ground == SOFT_GROUND_PHYSICS) physics_ground_query(one);
       } else {
-        free(one->player);
-        one->player = NULL;
-        one->placed = s->ground == SOFT_GROUND_FLAT;
+        free(one->clip_player);
+        one->clip_player = NULL;
+        one->placement.is_placed = s->ground == SOFT_GROUND_FLAT;
       }
       clip_player_remade(one);
       soft_character_drive(one);
-      one->still = false;
+      one->placement.is_still = false;
       soft_character_pause(one);
       one->mesh = character_mesh_make(one);
       character_skeleton_make(one);
       soft_character_apply_part_settings(one);
-      one->stale = true;
+      one->is_mesh_stale = true;
     } else
       soft_character_unmake(one);
   } else if (inside)

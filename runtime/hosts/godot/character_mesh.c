@@ -151,7 +151,7 @@ character_mesh *character_mesh_make(soft_character *one) {
     good = show(&made->meshes[made->count++], one, i);
   if (good) {
     character_mesh_apply_settings(made, one);
-    if (gd_size(&one->surface_materials)) character_mesh_apply_materials(made, one);
+    if (gd_size(&one->resources.surface_materials)) character_mesh_apply_materials(made, one);
     return made;
   }
   gd_error("no memory for a character's mesh");
@@ -202,12 +202,13 @@ static bool dress_surface(
 
 void character_mesh_apply_materials(character_mesh *mesh, const soft_character *one) {
   if (!mesh) return;
-  gd_variant keys = GD_CALL(&one->surface_materials, "keys");
+  gd_variant keys = GD_CALL(&one->resources.surface_materials, "keys");
   for (uint32_t i = 0; i < mesh->count; i++)
     for (uint32_t k = 0; k < mesh->meshes[i].surface_count; k++)
       GD_DO(&mesh->meshes[i].instance, "set_surface_override_material", gd_int(k), gd_nil());
   for (int64_t i = 0, count = gd_size(&keys); i < count; i++) {
-    gd_variant key = gd_at(&keys, i), material = GD_CALL(&one->surface_materials, "get", gd_copy(&key));
+    gd_variant key = gd_at(&keys, i),
+               material = GD_CALL(&one->resources.surface_materials, "get", gd_copy(&key));
     bool is_material =
         !gd_as_object(&material) || gd_take_bool(GD_CALL(&material, "is_class", gd_string("Material")));
     if (!is_material) gd_assign(&material, gd_nil());
@@ -228,7 +229,7 @@ void character_mesh_apply_materials(character_mesh *mesh, const soft_character *
 void character_mesh_apply_settings(character_mesh *mesh, const soft_character *one) {
   for (uint32_t i = 0; mesh && i < mesh->count; i++) {
     const gd_variant *instance = &mesh->meshes[i].instance;
-    GD_DO(instance, "set_material_override", gd_copy(&one->material));
+    GD_DO(instance, "set_material_override", gd_copy(&one->resources.material));
     GD_DO(instance, "set_cast_shadows_setting", gd_int(one->settings.cast_shadow));
     GD_DO(instance, "set_layer_mask", gd_int(one->settings.layers));
   }

@@ -6,16 +6,16 @@
 #include "physics_parts.h"
 
 void soft_character_apply_part_settings(soft_character *one) {
-  if (!one->world || one->editor) return;
+  if (!one->world || one->is_in_editor) return;
   if (!one->settings.collision_layer) {
-    physics_parts_free(one->parts);
-    one->parts = NULL;
-  } else if (!one->parts) {
-    one->parts = physics_parts_make(one);
-    physics_bodies_except(one->bodies, one->parts);
-    if (one->placed) physics_parts_move(one->parts, one);
+    physics_parts_free(one->physics.parts);
+    one->physics.parts = NULL;
+  } else if (!one->physics.parts) {
+    one->physics.parts = physics_parts_make(one);
+    physics_bodies_except(one->physics.bodies, one->physics.parts);
+    if (one->placement.is_placed) physics_parts_move(one->physics.parts, one);
   }
-  physics_parts_apply_settings(one->parts, one);
+  physics_parts_apply_settings(one->physics.parts, one);
 }
 
 int32_t soft_character_bone(const soft_character *one, const gd_variant *wanted) {
@@ -36,18 +36,18 @@ static gd_variant bone_name(const soft_character *one, int32_t bone) {
 
 CALL(get_bone_of_shape) {
   const soft_character *one = self;
-  gd_assign(result, bone_name(one, physics_parts_owner(one->parts, gd_as_int(arguments[0])).bone));
+  gd_assign(result, bone_name(one, physics_parts_owner(one->physics.parts, gd_as_int(arguments[0])).bone));
 }
 
 CALL(get_soft_body_of_shape) {
   const soft_character *one = self;
-  gd_assign(result, gd_int(physics_parts_owner(one->parts, gd_as_int(arguments[0])).soft_body));
+  gd_assign(result, gd_int(physics_parts_owner(one->physics.parts, gd_as_int(arguments[0])).soft_body));
 }
 
 CALL(get_rid) {
   const soft_character *one = self;
   UNUSED;
-  gd_assign(result, physics_parts_rid(one->parts));
+  gd_assign(result, physics_parts_rid(one->physics.parts));
 }
 
 /* ---- Contacts ---- */

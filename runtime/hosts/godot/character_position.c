@@ -24,25 +24,30 @@ static const sbf_bone *body_bone(const sbf_asset *asset, uint32_t *index) {
 }
 
 double soft_character_size(const soft_character *one) {
-  float wide = fmaxf(fmaxf(one->high.x, -one->low.x), fmaxf(one->high.z, -one->low.z));
-  return (double)(fmaxf(wide, one->high.y - one->low.y) * one->scale);
+  float wide =
+      fmaxf(fmaxf(one->bounds.high.x, -one->bounds.low.x), fmaxf(one->bounds.high.z, -one->bounds.low.z));
+  return (double)(fmaxf(wide, one->bounds.high.y - one->bounds.low.y) * one->scale);
 }
 
 double soft_character_around(const soft_character *one) {
-  float wide = fmaxf(fmaxf(one->high.x, -one->low.x), fmaxf(one->high.z, -one->low.z)) * one->scale;
+  float wide =
+      fmaxf(fmaxf(one->bounds.high.x, -one->bounds.low.x), fmaxf(one->bounds.high.z, -one->bounds.low.z)) *
+      one->scale;
   double size = soft_character_size(one); /* a tall character may lie down */
   return fmax(1.5 * (double)wide + 0.1 * size, size);
 }
 
 /* Stores the transform after the parent's rounding, for later comparison. */
 static void leave_node(soft_character *one) {
-  GD_DO(&one->node, "set_global_transform", gd_transform_value(one->put));
-  one->put = soft_character_transform(one);
+  GD_DO(&one->node, "set_global_transform", gd_transform_value(one->placement.shown_at));
+  one->placement.shown_at = soft_character_transform(one);
 }
 
 void soft_character_follow(soft_character *one) {
-  if (one->displaced && one->tick == sbr_world_get_tick_count(one->world)) return;
-  one->displaced = false;
+  if (one->placement.was_displaced &&
+      one->placement.displaced_at_tick == sbr_world_get_tick_count(one->world))
+    return;
+  one->placement.was_displaced = false;
   if (soft_character_loose_follow(one)) {
     leave_node(one);
     return;
@@ -55,9 +60,9 @@ void soft_character_follow(soft_character *one) {
   sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
   sbf_vec3 at = bones[index].position;
   sbf_vec3 ahead = turned(bones[index].rotation, turned(turn_back(bone->rotation), (sbf_vec3){0, 0, 1}));
-  one->put = upright((sbf_vec3){0, 0, 0}, atan2f(ahead.x, ahead.z), one->scale);
-  sbf_vec3 rest = placed_vector(&one->put, bone->head);
-  one->put.origin = (sbf_vec3){(float)(origin.x + (double)(at.x - rest.x)),
+  one->placement.shown_at = upright((sbf_vec3){0, 0, 0}, atan2f(ahead.x, ahead.z), one->scale);
+  sbf_vec3 rest = placed_vector(&one->placement.shown_at, bone->head);
+  one->placement.shown_at.origin = (sbf_vec3){(float)(origin.x + (double)(at.x - rest.x)),
       (float)(origin.y + (double)(at.y - rest.y)), (float)(origin.z + (double)(at.z - rest.z))};
   free(bones);
   leave_node(one);
@@ -65,18 +70,18 @@ void soft_character_follow(soft_character *one) {
 
 double soft_character_ground_height(const soft_character *one, double x, double z) {
   sbf_vec3 normal;
-  sbr_ground ground = physics_ground_of(one->ground);
+  sbr_ground ground = physics_ground_of(one->physics.ground);
   return ground.height(&ground, x, z, &normal);
 }
 
 void soft_character_set_position(soft_character *one, sbf_vec3 position, float heading) {
-  one->put = upright(position, heading, one->scale);
-  one->last_origin = position;
+  one->placement.shown_at = upright(position, heading, one->scale);
+  one->placement.last_origin = position;
   if (one->settings.ground == SOFT_GROUND_PHYSICS) {
     physics_bodies_query(one, true);
     physics_ground_query(one);
   }
-  one->stale = true;
+  one->is_mesh_stale = true;
   if (soft_character_set_loose_position(one)) return;
   double above = position.y - soft_character_ground_height(one, position.x, position.z);
   if (above < 0) above = 0; /* it falls from there */
@@ -117,78 +122,81 @@ static const float LARGEST_TURN = 1; /* rad per frame: larger rotations are plac
 static bool steps_there(const soft_character *one, const node_move *move) {
   double limit = one->settings.teleport_distance, size = soft_character_size(one);
   float x = move->by.x, y = move->by.y, z = move->by.z;
-  if (one->loose || one->editor || one->settings.paused || !(fabsf(move->turn) < LARGEST_TURN)) return false;
+  if (one->loose.is_loose || one->is_in_editor || one->settings.paused || !(fabsf(move->turn) < LARGEST_TURN))
+    return false;
   return sqrt((double)(x * x + y * y + z * z)) < (limit > 0 ? limit : size / 2);
 }
 
 /* ---- A frame ---- */
 
 void soft_character_save(soft_character *one, bool done) {
-  if (one->previews)
-    GD_DO(&one->node, "set_global_transform", gd_transform_value(done ? one->put : one->from));
+  if (one->preview.is_running)
+    GD_DO(&one->node, "set_global_transform",
+        gd_transform_value(done ? one->placement.shown_at : one->preview.started_at));
 }
 
 /* In the editor the character is at the node's position, moves during a preview, and is reset afterwards. */
 static void edit(soft_character *one, const gd_transform *now) {
-  if (one->previews) GD_DO(&one->node, "set_global_transform", gd_transform_value(one->from));
-  if (!one->previews && !move_of(now, &one->put).any) return;
-  one->put = one->previews ? one->from : *now;
-  one->previews = false;
-  one->flat_y = one->put.origin.y;
-  physics_ground_level(one->ground, one->flat_y);
+  if (one->preview.is_running)
+    GD_DO(&one->node, "set_global_transform", gd_transform_value(one->preview.started_at));
+  if (!one->preview.is_running && !move_of(now, &one->placement.shown_at).any) return;
+  one->placement.shown_at = one->preview.is_running ? one->preview.started_at : *now;
+  one->preview.is_running = false;
+  one->placement.flat_ground_y = one->placement.shown_at.origin.y;
+  physics_ground_level(one->physics.ground, one->placement.flat_ground_y);
   sbr_character_reset(one->world, one->id);
-  one->frame = (sbr_double3){one->put.origin.x, 0, one->put.origin.z};
-  sbr_character_teleport(one->world, one->id, one->frame, transform_heading(&one->put));
+  one->loose.frame = (sbr_double3){one->placement.shown_at.origin.x, 0, one->placement.shown_at.origin.z};
+  sbr_character_teleport(one->world, one->id, one->loose.frame, transform_heading(&one->placement.shown_at));
   character_skeleton_update(one);
-  one->stale = true;
+  one->is_mesh_stale = true;
   GD_DO(&one->node, "update_gizmos");
 }
 
 bool soft_character_prepare(soft_character *one) {
   gd_transform now = soft_character_transform(one);
-  if (one->editor && memcmp(&now, &one->warned, sizeof now) != 0) {
-    one->warned = now;
+  if (one->is_in_editor && memcmp(&now, &one->preview.warned_at, sizeof now) != 0) {
+    one->preview.warned_at = now;
     GD_DO(&one->node, "update_configuration_warnings");
   }
-  if (one->editor && !one->settings.preview) {
+  if (one->is_in_editor && !one->settings.preview) {
     edit(one, &now);
     return false;
   }
-  if (one->editor && !one->previews) {
-    one->previews = true;
-    one->from = now;
-    one->placed = false;
+  if (one->is_in_editor && !one->preview.is_running) {
+    one->preview.is_running = true;
+    one->preview.started_at = now;
+    one->placement.is_placed = false;
   }
-  node_move move = move_of(&now, &one->put);
-  if (one->placed &&
+  node_move move = move_of(&now, &one->placement.shown_at);
+  if (one->placement.is_placed &&
       !isfinite(move.by.x + move.by.y + move.by.z + move.turn)) { /* invalid movement: it stays */
     leave_node(one);
     move = (node_move){.any = false};
   }
-  bool steps = one->placed && move.any && steps_there(one, &move);
+  bool steps = one->placement.is_placed && move.any && steps_there(one, &move);
   if (steps) {
     sbr_character_displace(one->world, one->id, move.by, move.turn);
-    one->put = now; /* a frame without a tick keeps it there */
-    one->displaced = true;
-    one->tick = sbr_world_get_tick_count(one->world);
+    one->placement.shown_at = now; /* a frame without a tick keeps it there */
+    one->placement.was_displaced = true;
+    one->placement.displaced_at_tick = sbr_world_get_tick_count(one->world);
   }
-  bool placed = !one->placed || (move.any && !steps);
+  bool placed = !one->placement.is_placed || (move.any && !steps);
   if (placed) {
     soft_character_set_position(one, now.origin, transform_heading(&now));
-    one->placed = true;
+    one->placement.is_placed = true;
   } else if (one->settings.ground == SOFT_GROUND_PHYSICS && !one->settings.paused) {
     physics_bodies_query(one, false);
   }
   soft_character_pause(one);
-  if (one->still && placed) physics_parts_move(one->parts, one);
-  return !one->still;
+  if (one->placement.is_still && placed) physics_parts_move(one->physics.parts, one);
+  return !one->placement.is_still;
 }
 
 /* A node that does not process may still be stepped by another node of its world. */
 void soft_character_pause(soft_character *one) {
   bool still = one->settings.paused || !gd_take_bool(GD_CALL(&one->node, "can_process"));
-  if (one->world && still != one->still) sbr_character_set_paused(one->world, one->id, still);
-  one->still = still;
+  if (one->world && still != one->placement.is_still) sbr_character_set_paused(one->world, one->id, still);
+  one->placement.is_still = still;
 }
 
 /* Said once for each time that it becomes negative. */
@@ -208,14 +216,14 @@ bool soft_character_rescale(soft_character *one) {
   check_mirrored(one, &now);
   float scale = transform_scale(&now);
   if (fabsf(scale - one->scale) <= 1e-4f * one->scale) return false;
-  one->placed = false; /* it restarts at its position */
+  one->placement.is_placed = false; /* it restarts at its position */
   soft_character_make(one);
   return true;
 }
 
 void soft_character_show(soft_character *one) {
   soft_character_follow(one);
-  physics_parts_move(one->parts, one);
+  physics_parts_move(one->physics.parts, one);
   character_skeleton_update(one);
-  one->stale = true;
+  one->is_mesh_stale = true;
 }

@@ -22,24 +22,25 @@ gd_variant soft_character_callable(const soft_character *one, const char *name) 
 
 static void get_asset(void *self, const gd_variant *const *arguments, gd_variant *result) {
   (void)arguments;
-  gd_assign(result, gd_copy(&((soft_character *)self)->asset_value));
+  gd_assign(result, gd_copy(&((soft_character *)self)->resources.asset));
 }
 
 static void set_asset(void *self, const gd_variant *const *arguments, gd_variant *result) {
   soft_character *one = self;
   (void)result;
-  if (gd_as_object(&one->asset_value) == gd_as_object(arguments[0])) return;
+  if (gd_as_object(&one->resources.asset) == gd_as_object(arguments[0])) return;
   if (gd_as_object(arguments[0]) && !gd_class_instance(&soft_asset_class, gd_as_object(arguments[0]))) {
     soft_character_error(one,
         "asset: the value is not a SoftAsset: load a .sbfz, or a .sbf that the plugin sbfmt has imported");
     return;
   }
-  if (gd_as_object(&one->asset_value))
+  if (gd_as_object(&one->resources.asset))
+    GD_DO(&one->resources.asset, "disconnect", gd_name("changed"),
+        soft_character_callable(one, "_asset_changed"));
+  gd_assign(&one->resources.asset, gd_copy(arguments[0]));
+  if (gd_as_object(&one->resources.asset))
     GD_DO(
-        &one->asset_value, "disconnect", gd_name("changed"), soft_character_callable(one, "_asset_changed"));
-  gd_assign(&one->asset_value, gd_copy(arguments[0]));
-  if (gd_as_object(&one->asset_value))
-    GD_DO(&one->asset_value, "connect", gd_name("changed"), soft_character_callable(one, "_asset_changed"));
+        &one->resources.asset, "connect", gd_name("changed"), soft_character_callable(one, "_asset_changed"));
   soft_character_make(one);
   GD_DO(&one->node, "update_configuration_warnings");
 }
@@ -70,25 +71,25 @@ bool soft_character_fits(const soft_character *one, const char *name, double val
 
 static void get_material(void *self, const gd_variant *const *arguments, gd_variant *result) {
   (void)arguments;
-  gd_assign(result, gd_copy(&((soft_character *)self)->material));
+  gd_assign(result, gd_copy(&((soft_character *)self)->resources.material));
 }
 
 static void set_material(void *self, const gd_variant *const *arguments, gd_variant *result) {
   soft_character *one = self;
   (void)result;
-  gd_assign(&one->material, gd_copy(arguments[0]));
+  gd_assign(&one->resources.material, gd_copy(arguments[0]));
   character_mesh_apply_settings(one->mesh, one);
 }
 
 static void get_surface_materials(void *self, const gd_variant *const *arguments, gd_variant *result) {
   (void)arguments;
-  gd_assign(result, GD_CALL(&((soft_character *)self)->surface_materials, "duplicate"));
+  gd_assign(result, GD_CALL(&((soft_character *)self)->resources.surface_materials, "duplicate"));
 }
 
 static void set_surface_materials(void *self, const gd_variant *const *arguments, gd_variant *result) {
   soft_character *one = self;
   (void)result;
-  gd_assign(&one->surface_materials, GD_CALL(arguments[0], "duplicate"));
+  gd_assign(&one->resources.surface_materials, GD_CALL(arguments[0], "duplicate"));
   character_mesh_apply_materials(one->mesh, one);
 }
 
@@ -122,7 +123,7 @@ SETTING(layers, int, INT32_MIN, UINT32_MAX, character_mesh_apply_settings(one->m
 
 static void get_velocity(void *self, const gd_variant *const *arguments, gd_variant *result) {
   (void)arguments;
-  gd_assign(result, gd_vector3(((soft_character *)self)->velocity));
+  gd_assign(result, gd_vector3(((soft_character *)self)->movement.velocity));
 }
 
 static void set_velocity(void *self, const gd_variant *const *arguments, gd_variant *result) {
@@ -132,7 +133,7 @@ static void set_velocity(void *self, const gd_variant *const *arguments, gd_vari
   if (soft_character_fits(one, "velocity", (double)v.x, -SOFT_MAX, SOFT_MAX) &&
       soft_character_fits(one, "velocity", (double)v.y, -SOFT_MAX, SOFT_MAX) &&
       soft_character_fits(one, "velocity", (double)v.z, -SOFT_MAX, SOFT_MAX))
-    one->velocity = v;
+    one->movement.velocity = v;
 }
 
 /* Made again where the asset with the clip is needed, or no longer. */
@@ -157,7 +158,7 @@ static void set_pose_source(void *self, const gd_variant *const *arguments, gd_v
 static void get_pose_weight(void *self, const gd_variant *const *arguments, gd_variant *result) {
   const soft_character *one = self;
   (void)arguments;
-  gd_assign(result, gd_float(one->pose ? one->pose->weight : 1));
+  gd_assign(result, gd_float(one->pose_driver ? one->pose_driver->weight : 1));
 }
 
 static void set_pose_weight(void *self, const gd_variant *const *arguments, gd_variant *result) {
@@ -165,7 +166,7 @@ static void set_pose_weight(void *self, const gd_variant *const *arguments, gd_v
   double weight = gd_as_float(arguments[0]);
   (void)result;
   if (!soft_character_fits(one, "pose_weight", weight, 0, 1) || !pose_driver_of(one)) return;
-  one->pose->weight = weight;
+  one->pose_driver->weight = weight;
 }
 
 enum {
@@ -263,7 +264,7 @@ static bool is_tilted(const gd_transform *at) {
 
 static void warnings(void *self, const gd_variant *const *arguments, gd_variant *result) {
   soft_character *one = self;
-  soft_asset *asset = gd_class_instance(&soft_asset_class, gd_as_object(&one->asset_value));
+  soft_asset *asset = gd_class_instance(&soft_asset_class, gd_as_object(&one->resources.asset));
   gd_variant value = GD_CALL(&one->node, "get_transform");
   gd_transform at = gd_as_transform(&value);
   (void)arguments;

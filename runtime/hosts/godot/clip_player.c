@@ -18,7 +18,7 @@ static const sbf_clip *clip_of(const soft_character *one, int32_t clip) {
 }
 
 static void send(soft_character *one, uint32_t layer, float speed, float blend_s) {
-  clip_layer *l = &one->player->layers[layer];
+  clip_layer *l = &one->clip_player->layers[layer];
   sbr_clip_play how = sbr_default_clip_play();
   how.weight = l->now.weight;
   how.fade_s = blend_s;
@@ -29,7 +29,7 @@ static void send(soft_character *one, uint32_t layer, float speed, float blend_s
 }
 
 static void start(soft_character *one, uint32_t layer, const clip_request *request) {
-  clip_layer *l = &one->player->layers[layer];
+  clip_layer *l = &one->clip_player->layers[layer];
   bool same = l->now.clip == request->clip && request->clip != SBF_NONE;
   const sbf_clip *clip = clip_of(one, request->clip);
   if (same && !l->plays) l->rewinds = true; /* the runtime goes on where it is */
@@ -40,12 +40,12 @@ static void start(soft_character *one, uint32_t layer, const clip_request *reque
 }
 
 void clip_player_play(soft_character *one, uint32_t layer, const clip_request *request) {
-  one->player->layers[layer].queued = 0;
+  one->clip_player->layers[layer].queued = 0;
   start(one, layer, request);
 }
 
 bool clip_player_queue(soft_character *one, uint32_t layer, const clip_request *request) {
-  clip_layer *l = &one->player->layers[layer];
+  clip_layer *l = &one->clip_player->layers[layer];
   if (!l->plays) return start(one, layer, request), true;
   if (l->queued == CLIP_QUEUE) return false;
   l->queue[l->queued++] = *request;
@@ -104,7 +104,7 @@ static void move_root(soft_character *one, const clip_layer *l, const sbf_clip *
     moved = between(sampled(track, (float)l->time_s), sampled(track, (float)fmin(fmax(end, 0), duration)));
   const sbf_bone *body = &one->model->asset->bones.at[track->bone];
   if (body->parent >= 0) moved = turned(one->model->asset->bones.at[body->parent].rotation, moved);
-  gd_transform at = upright((sbf_vec3){0, 0, 0}, transform_heading(&one->put), one->scale);
+  gd_transform at = upright((sbf_vec3){0, 0, 0}, transform_heading(&one->placement.shown_at), one->scale);
   moved = placed_vector(&at, moved);
   sbr_character_displace(one->world, one->id, (sbf_vec3){moved.x, 0, moved.z}, 0);
 }
@@ -114,11 +114,11 @@ static void move_root(soft_character *one, const clip_layer *l, const sbf_clip *
 /* A clip that the file loops would begin again, so it is slowed down to stop at its end; one that it does not
  * loop stays at its end, and is taken back to its beginning. */
 void clip_player_prepare(soft_character *one, float frame_s) {
-  if (!one->player) return;
+  if (!one->clip_player) return;
   double tick = tick_of(one), world_tick = tick * sqrt((double)one->scale);
   double step = fmax(ceil((double)frame_s / world_tick - 0.01), 1) * tick;
   for (uint32_t i = 0; i < CLIP_LAYERS; i++) {
-    clip_layer *l = &one->player->layers[i];
+    clip_layer *l = &one->clip_player->layers[i];
     const sbf_clip *clip = clip_of(one, l->now.clip);
     if (!clip || !l->plays || !(clip->duration > 0)) continue;
     double left = left_of(l, clip), end = l->now.speed < 0 ? (double)clip->duration : 0;
@@ -128,12 +128,12 @@ void clip_player_prepare(soft_character *one, float frame_s) {
       send(one, i, copysignf((float)(fmax(left - 1e-4 * (double)clip->duration, 0) / step), l->now.speed), 0);
     else if (l->speed != l->now.speed)
       send(one, i, l->now.speed, 0);
-    if (!one->still) move_root(one, l, clip, step);
+    if (!one->placement.is_still) move_root(one, l, clip, step);
   }
 }
 
 static void end(soft_character *one, uint32_t layer) {
-  clip_player *player = one->player;
+  clip_player *player = one->clip_player;
   clip_layer *l = &player->layers[layer];
   l->plays = false;
   if (player->ended_count < CLIP_LAYERS * 2) player->ended[player->ended_count++] = l->now.clip;
@@ -145,12 +145,12 @@ static void end(soft_character *one, uint32_t layer) {
 }
 
 void clip_player_advance(soft_character *one) {
-  clip_player *player = one->player;
+  clip_player *player = one->clip_player;
   if (!player) return;
   uint64_t tick = sbr_world_get_tick_count(one->world);
   double passed = (double)(tick - player->tick) * tick_of(one);
   player->tick = tick;
-  for (uint32_t i = 0; i < CLIP_LAYERS && passed > 0 && !one->still; i++) {
+  for (uint32_t i = 0; i < CLIP_LAYERS && passed > 0 && !one->placement.is_still; i++) {
     clip_layer *l = &player->layers[i];
     const sbf_clip *clip = clip_of(one, l->now.clip);
     if (!clip || !l->plays) continue;
@@ -169,7 +169,7 @@ void clip_player_advance(soft_character *one) {
 }
 
 int32_t clip_player_take_ended(soft_character *one) {
-  clip_player *player = one->player;
+  clip_player *player = one->clip_player;
   if (!player || !player->ended_count) return SBF_NONE;
   int32_t first = player->ended[0];
   memmove(&player->ended[0], &player->ended[1], --player->ended_count * sizeof player->ended[0]);
@@ -177,7 +177,7 @@ int32_t clip_player_take_ended(soft_character *one) {
 }
 
 void clip_player_remade(soft_character *one) {
-  clip_player *player = one->player;
+  clip_player *player = one->clip_player;
   if (!player) return;
   player->tick = sbr_world_get_tick_count(one->world);
   player->ended_count = 0;

@@ -61,8 +61,8 @@ static bool find_view(const gd_variant *viewport, sbr_view *view) {
 }
 
 static void set_detail(soft_character *one, soft_detail_state state) {
-  if (one->detail == state) return;
-  one->detail = state;
+  if (one->detail_state == state) return;
+  one->detail_state = state;
   sbr_character_set_detail_level(one->world, one->id, state == SOFT_DETAIL_FINEST ? 0 : SBR_DETAIL_AUTOMATIC);
   sbr_character_set_visibility(
       one->world, one->id, state == SOFT_DETAIL_HIDDEN ? SBR_VISIBILITY_NEVER : SBR_VISIBILITY_BY_VIEWS);
@@ -74,7 +74,7 @@ void level_of_detail_update(soft_character *const *members, uint32_t count) {
   bool sees = gd_as_object(&viewport) && find_view(&viewport, &view);
   gd_free(&viewport);
   sbr_world_set_views(members[0]->world, &view, sees ? 1 : 0);
-  bool finest = !sees || physics_bodies_any_rigid(members[0]->bodies);
+  bool finest = !sees || physics_bodies_any_rigid(members[0]->physics.bodies);
   for (uint32_t i = 0; i < count; i++) {
     soft_character *one = members[i];
     bool shown = finest || gd_take_bool(GD_CALL(&one->node, "is_visible_in_tree"));

@@ -238,7 +238,7 @@ void physics_bodies_except(const physics_bodies *bodies, physics_parts *parts) {
 /* Adds a body's shape that is new. */
 static void adopt(soft_character *one, const gd_variant *server, const gd_variant *handle, int64_t index,
     const gd_variant *object) {
-  physics_bodies *bodies = one->bodies;
+  physics_bodies *bodies = one->physics.bodies;
   mirrored *unused = find_unused(bodies, one->world);
   if (!unused) {
     if (!bodies->warned)
@@ -262,7 +262,7 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
  * the following queries, by `known`. */
 static void note_found(
     soft_character *one, const gd_variant *server, const gd_variant *hit, float speed, gd_variant *known) {
-  physics_bodies *bodies = one->bodies;
+  physics_bodies *bodies = one->physics.bodies;
   gd_variant handle = gd_key(hit, "rid");
   uint64_t body = gd_as_rid(&handle);
   int64_t index = gd_take_int(gd_key(hit, "shape"));
@@ -287,7 +287,7 @@ static void note_found(
 
 /* Runs the query for bodies of at least that speed (m/s), and again if its results were full. */
 static void ask(soft_character *one, const gd_variant *space, const gd_variant *server, float speed) {
-  physics_bodies *bodies = one->bodies;
+  physics_bodies *bodies = one->physics.bodies;
   gd_variant known = GD_CALL(speed > 0 ? &bodies->still : &bodies->passed, "duplicate");
   bool more = true;
   for (int i = 0; i < QUERIES && more; i++) {
@@ -310,17 +310,18 @@ static void ask(soft_character *one, const gd_variant *space, const gd_variant *
 /* Every few frames finds all bodies in a box around the character; in each frame those that are fast enough
  * to pass it before the next. */
 static void query_around(soft_character *one, bool all) {
-  physics_bodies *bodies = one->bodies;
+  physics_bodies *bodies = one->physics.bodies;
   gd_variant world = GD_CALL(&one->node, "get_world_3d");
   gd_variant space = gd_as_object(&world) ? GD_CALL(&world, "get_direct_space_state") : gd_nil();
   if (gd_as_object(&space)) {
     float frame_s = (float)gd_take_float(GD_CALL(&one->node, "get_physics_process_delta_time"));
-    float wide = 1.3f * (float)soft_character_around(one), tall = (one->high.y - one->low.y) * one->scale;
+    float wide = 1.3f * (float)soft_character_around(one),
+          tall = (one->bounds.high.y - one->bounds.low.y) * one->scale;
     float more = 2 * FASTEST * frame_s;
     gd_variant server = gd_singleton("PhysicsServer3D");
-    gd_transform at = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, one->put.origin};
+    gd_transform at = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, one->placement.shown_at.origin};
     sbf_vec3 size = {2 * wide, 2 * tall + wide, 2 * wide};
-    at.origin.y += (one->low.y + one->high.y) / 2 * one->scale;
+    at.origin.y += (one->bounds.low.y + one->bounds.high.y) / 2 * one->scale;
     GD_DO(&bodies->query, "set_transform", gd_transform_value(at));
     GD_DO(&bodies->query, "set_collision_mask", gd_int(one->settings.collision_mask));
     if (bodies->frame % FORGET == 0) {
@@ -329,10 +330,10 @@ static void query_around(soft_character *one, bool all) {
     }
     if (all) {
       /* Distance that the character covers until the next query at twice its speed. */
-      sbf_vec3 o = one->put.origin, was = one->looked;
+      sbf_vec3 o = one->placement.shown_at.origin, was = one->placement.queried_at;
       float goes = fminf(4 * length((sbf_vec3){o.x - was.x, o.y - was.y, o.z - was.z}), FASTEST);
       size = (sbf_vec3){size.x + goes, size.y + goes, size.z + goes};
-      one->looked = o;
+      one->placement.queried_at = o;
       GD_DO(&bodies->box, "set_size", gd_vector3(size));
       ask(one, &space, &server, 0);
     }
@@ -347,7 +348,7 @@ static void query_around(soft_character *one, bool all) {
 }
 
 void physics_bodies_query(soft_character *one, bool now) {
-  query_around(one, now || one->bodies->frame % AGAIN == 0);
+  query_around(one, now || one->physics.bodies->frame % AGAIN == 0);
 }
 
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes) {

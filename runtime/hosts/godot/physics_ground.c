@@ -46,8 +46,8 @@ void physics_ground_level(physics_ground *ground, double level) {
 
 /* Whether a ray downwards from the node finds a body that is not its own. */
 static bool finds_floor(const soft_character *one, const gd_variant *space, double above) {
-  const gd_variant *query = &one->ground->query;
-  sbf_vec3 from = one->put.origin, to = from;
+  const gd_variant *query = &one->physics.ground->query;
+  sbf_vec3 from = one->placement.shown_at.origin, to = from;
   gd_variant passed = gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY);
   bool found = false;
   from.y += (float)above, to.y -= (float)DEEP;
@@ -71,20 +71,20 @@ static bool finds_floor(const soft_character *one, const gd_variant *space, doub
 
 /* Once only, since it may be intended, as for a flying character. */
 static void warn_of_nothing(const soft_character *one) {
-  one->ground->warned = true;
+  one->physics.ground->warned = true;
   soft_character_warning(one,
       "there is no ground: nothing below it has a layer of its collision_mask, so it stays where it is. "
       "Add a StaticBody3D with a CollisionShape3D, or set ground to GROUND_FLAT");
 }
 
 void physics_ground_query(soft_character *one) {
-  double y = (double)one->put.origin.y;
+  double y = (double)one->placement.shown_at.origin.y;
   gd_variant world = GD_CALL(&one->node, "get_world_3d");
   gd_variant space = gd_as_object(&world) ? GD_CALL(&world, "get_direct_space_state") : gd_nil();
   bool has_space = gd_as_object(&space) != NULL;
   bool found = has_space && finds_floor(one, &space, soft_character_size(one));
-  one->ground->level = found ? y - 2 * DEEP : y;
-  if (has_space && !found && !one->ground->warned && !one->editor) warn_of_nothing(one);
+  one->physics.ground->level = found ? y - 2 * DEEP : y;
+  if (has_space && !found && !one->physics.ground->warned && !one->is_in_editor) warn_of_nothing(one);
   gd_free(&space);
   gd_free(&world);
 }

@@ -188,8 +188,8 @@ void physics_parts_move(physics_parts *parts, const soft_character *one) {
   if (!parts) return;
   sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
   sbr_character_get_bones(one->world, one->id, parts->bones, one->model->asset->bones.count);
-  gd_transform at = upright(one->put.origin, transform_heading(&one->put), 1);
-  gd_transform back = upright((sbf_vec3){0, 0, 0}, -transform_heading(&one->put), 1), frame;
+  gd_transform at = upright(one->placement.shown_at.origin, transform_heading(&one->placement.shown_at), 1);
+  gd_transform back = upright((sbf_vec3){0, 0, 0}, -transform_heading(&one->placement.shown_at), 1), frame;
   gd_variant area = gd_as_object(&parts->area) ? GD_CALL(&parts->area, "get_rid") : gd_nil();
   bool has_area = gd_as_object(&parts->area) != NULL;
   if (memcmp(&at, &parts->last, sizeof at) != 0) {

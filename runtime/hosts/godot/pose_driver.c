@@ -12,29 +12,29 @@
 static const float AIM_RATE = 8, AIM_LIMIT = 1.2f;
 
 pose_driver *pose_driver_of(soft_character *one) {
-  if (one->pose) return one->pose;
-  one->pose = calloc(1, sizeof *one->pose);
-  if (!one->pose) return gd_error("no memory for a character's pose"), NULL;
+  if (one->pose_driver) return one->pose_driver;
+  one->pose_driver = calloc(1, sizeof *one->pose_driver);
+  if (!one->pose_driver) return gd_error("no memory for a character's pose"), NULL;
   one->pose->path = gd_empty(GDEXTENSION_VARIANT_TYPE_NODE_PATH);
-  one->pose->weight = 1;
-  one->pose->sent_weight = -1;
-  return one->pose;
+  one->pose_driver->weight = 1;
+  one->pose_driver->sent_weight = -1;
+  return one->pose_driver;
 }
 
 void pose_driver_forget(soft_character *one) {
-  if (!one->pose) return;
-  free(one->pose->bones);
-  one->pose->bones = NULL;
-  one->pose->skeleton = 0;
-  one->pose->sent_weight = -1;
+  if (!one->pose_driver) return;
+  free(one->pose_driver->bones);
+  one->pose_driver->bones = NULL;
+  one->pose_driver->skeleton = 0;
+  one->pose_driver->sent_weight = -1;
 }
 
 void pose_driver_free(soft_character *one) {
-  if (!one->pose) return;
+  if (!one->pose_driver) return;
   pose_driver_forget(one);
-  gd_free(&one->pose->path);
-  free(one->pose);
-  one->pose = NULL;
+  gd_free(&one->pose_driver->path);
+  free(one->pose_driver);
+  one->pose_driver = NULL;
 }
 
 static bool has_path(const pose_driver *pose) {
@@ -42,7 +42,8 @@ static bool has_path(const pose_driver *pose) {
 }
 
 bool pose_driver_is_used(const soft_character *one) {
-  return one->pose && !one->editor && (one->pose->aim_count || has_path(one->pose));
+  return one->pose_driver && !one->is_in_editor &&
+         (one->pose_driver->aim_count || has_path(one->pose_driver));
 }
 
 /* ---- Another skeleton ---- */
@@ -59,7 +60,7 @@ static sbr_transform rest_of(const sbf_asset *asset, uint32_t bone) {
 
 /* Finds the bones of the same names; false where there is no skeleton. */
 static bool find_bones(soft_character *one, const gd_variant *skeleton) {
-  pose_driver *pose = one->pose;
+  pose_driver *pose = one->pose_driver;
   const sbf_bone_list *bones = &one->model->asset->bones;
   uint64_t id = gd.object_get_instance_id(gd_as_object(skeleton));
   if (pose->skeleton == id && pose->bones) return true;
@@ -92,7 +93,7 @@ static gd_transform taken_transform(gd_variant value) {
 
 /* What turned and moved the bone away from its rest in the source does so here. */
 static void copy_bone(soft_character *one, const gd_variant *skeleton, uint32_t bone, pose_key *key) {
-  int32_t source = one->pose->bones[bone];
+  int32_t source = one->pose_driver->bones[bone];
   gd_transform rest = taken_transform(GD_CALL(skeleton, "get_bone_rest", gd_int(source)));
   gd_transform pose = taken_transform(GD_CALL(skeleton, "get_bone_pose", gd_int(source)));
   sbr_transform mine = rest_of(one->model->asset, bone);
@@ -106,7 +107,7 @@ static void copy_bone(soft_character *one, const gd_variant *skeleton, uint32_t 
 }
 
 static void copy_skeleton(soft_character *one, pose_clip *clip) {
-  pose_driver *pose = one->pose;
+  pose_driver *pose = one->pose_driver;
   gd_variant skeleton = GD_CALL(&one->node, "get_node_or_null", gd_copy(&pose->path));
   bool good =
       gd_as_object(&skeleton) && gd_take_bool(GD_CALL(&skeleton, "is_class", gd_string("Skeleton3D")));
@@ -153,7 +154,7 @@ static void apply_aim(
   const sbf_bone *bone = &asset->bones.at[aim->bone];
   pose_key *key = &clip->keys[aim->bone];
   sbr_transform rest = rest_of(asset, (uint32_t)aim->bone);
-  float heading = transform_heading(&one->put);
+  float heading = transform_heading(&one->placement.shown_at);
   bool has_key = clip->tracks[2 * aim->bone].times.count > 0;
   if (!has_key) key->rotation = rest.rotation, key->translation = rest.position;
   sbf_quat parent = bone->parent >= 0 ? bones[bone->parent].rotation
@@ -172,7 +173,7 @@ static void apply_aim(
 }
 
 static void apply_aims(soft_character *one, pose_clip *clip, float frame_s) {
-  pose_driver *pose = one->pose;
+  pose_driver *pose = one->pose_driver;
   uint32_t count = one->model->asset->bones.count;
   sbr_transform *bones = pose->aim_count ? malloc((count + 1) * sizeof *bones) : NULL;
   if (!bones) return;
@@ -189,16 +190,16 @@ static void apply_aims(soft_character *one, pose_clip *clip, float frame_s) {
 
 void pose_driver_prepare(soft_character *one, float frame_s) {
   pose_clip *clip = one->model ? soft_model_pose(one->model) : NULL;
-  if (!one->pose || !clip || one->still) return;
+  if (!one->pose_driver || !clip || one->placement.is_still) return;
   uint32_t count = one->model->asset->bones.count;
   for (uint32_t i = 0; i < count; i++) pose_clip_enable(clip, i, false);
-  bool has_skeleton = has_path(one->pose);
+  bool has_skeleton = has_path(one->pose_driver);
   if (has_skeleton) copy_skeleton(one, clip);
   apply_aims(one, clip, frame_s);
-  double weight = has_skeleton ? one->pose->weight : 1;
-  if (!pose_clip_changes(clip) && weight == one->pose->sent_weight) return; /* it may sleep */
+  double weight = has_skeleton ? one->pose_driver->weight : 1;
+  if (!pose_clip_changes(clip) && weight == one->pose_driver->sent_weight) return; /* it may sleep */
   sbr_clip_play how = sbr_default_clip_play();
-  how.weight = (float)(one->pose->sent_weight = weight);
+  how.weight = (float)(one->pose_driver->sent_weight = weight);
   sbr_character_play_clip(one->world, one->id, POSE_LAYER, clip->clip, &how);
 }
 
@@ -240,8 +241,8 @@ CALL(clear_aim) {
   soft_character *one = self;
   int32_t bone = soft_character_bone(one, arguments[0]);
   UNUSED;
-  for (uint32_t i = 0; one->pose && i < one->pose->aim_count; i++)
-    if (one->pose->aims[i].bone == bone) one->pose->aims[i].ends = true;
+  for (uint32_t i = 0; one->pose_driver && i < one->pose_driver->aim_count; i++)
+    if (one->pose_driver->aims[i].bone == bone) one->pose_driver->aims[i].ends = true;
 }
 
 const gd_method soft_character_pose_methods[] = {

@@ -96,14 +96,14 @@ static shared_world *find(const sbr_world_definition *definition, uint64_t space
 
 bool shared_world_join(soft_character *one, const sbr_world_definition *definition) {
   shared_world *shared =
-      find(definition, one->settings.collide_with_others && !one->editor ? space_of(one) : 0);
+      find(definition, one->settings.collide_with_others && !one->is_in_editor ? space_of(one) : 0);
   if (!shared) return false;
   if (one->model->options.detail_levels && !shared->selects)
     shared->selects = level_of_detail_select(shared->world, 0);
   shared->members[shared->count++] = one;
   one->shared = shared;
   one->world = shared->world;
-  one->bodies = shared->bodies;
+  one->physics.bodies = shared->bodies;
   return true;
 }
 
@@ -117,7 +117,7 @@ void shared_world_leave(soft_character *one) {
   memmove(&shared->members[at], &shared->members[at + 1], (shared->count - at) * sizeof shared->members[0]);
   one->shared = NULL;
   one->world = NULL;
-  one->bodies = NULL;
+  one->physics.bodies = NULL;
   one->id = (sbr_character_id){0};
   release(shared);
 }
@@ -155,7 +155,8 @@ soft_character *shared_world_member(const shared_world *shared, sbr_character_id
 }
 
 void shared_world_except(const shared_world *shared, const gd_variant *body) {
-  for (uint32_t i = 0; i < shared->count; i++) physics_parts_except(shared->members[i]->parts, body, true);
+  for (uint32_t i = 0; i < shared->count; i++)
+    physics_parts_except(shared->members[i]->physics.parts, body, true);
 }
 
 /* ---- A frame ---- */

@@ -42,10 +42,10 @@ static void notify(void *self, int32_t what, bool reversed) {
     soft_character_unmake(one);
   } else if (what == INTERNAL_PHYSICS_PROCESS) {
     if (one->world) shared_world_step(one);
-  } else if (what == INTERNAL_PROCESS && one->world && one->stale) {
+  } else if (what == INTERNAL_PROCESS && one->world && one->is_mesh_stale) {
     if (!gd_take_bool(GD_CALL(&one->node, "is_visible_in_tree"))) return; /* drawn when it becomes visible */
     character_mesh_update(one->mesh, one);
-    one->stale = false;
+    one->is_mesh_stale = false;
   } else if (what == EDITOR_PRE_SAVE || what == EDITOR_POST_SAVE) {
     soft_character_save(one, what == EDITOR_POST_SAVE);
   }
@@ -55,11 +55,11 @@ static void begin(void *self, GDExtensionObjectPtr object) {
   soft_character *one = self;
   gd_variant engine = gd_singleton("Engine");
   one->node = gd_object(object);
-  one->asset_value = gd_nil();
-  one->material = gd_nil();
-  one->surface_materials = gd_empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
+  one->resources.asset = gd_nil();
+  one->resources.material = gd_nil();
+  one->resources.surface_materials = gd_empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
   one->skeleton = gd_nil();
-  one->editor = gd_take_bool(GD_CALL(&engine, "is_editor_hint"));
+  one->is_in_editor = gd_take_bool(GD_CALL(&engine, "is_editor_hint"));
   one->settings = (soft_settings){.gravity_scale = 1,
       .mirror_skeleton = true,
       .use_threads = true,
@@ -76,11 +76,11 @@ static void begin(void *self, GDExtensionObjectPtr object) {
 static void end(void *self) {
   soft_character *one = self;
   soft_character_unmake(one);
-  free(one->player);
+  free(one->clip_player);
   pose_driver_free(one);
-  gd_free(&one->asset_value);
-  gd_free(&one->material);
-  gd_free(&one->surface_materials);
+  gd_free(&one->resources.asset);
+  gd_free(&one->resources.material);
+  gd_free(&one->resources.surface_materials);
   gd_free(&one->node);
 }
 

@@ -62,50 +62,90 @@ typedef struct surface_vertex {
   sbf_vec3 position; /* m */
 } surface_vertex;
 
-typedef struct soft_character {
-  gd_variant node;              /* itself, without a reference */
-  gd_variant asset_value;       /* the resource, with a reference; nil: none */
-  gd_variant material;          /* with a reference: material of all its meshes */
+/* Resources of a character, with a reference each. */
+typedef struct soft_resources {
+  gd_variant asset;             /* SoftAsset; nil: none */
+  gd_variant material;          /* of all its meshes */
   gd_variant surface_materials; /* Dictionary: of single surfaces */
+} soft_resources;
+
+/* Position of the node and of its character. */
+typedef struct soft_placement {
+  bool is_placed;        /* on the ground, from the first physics frame on */
+  bool is_still;         /* it does not move: paused, or its node does not process */
+  double flat_ground_y;  /* height of the flat ground */
+  gd_transform shown_at; /* where its own motion last moved the node */
+  bool was_displaced;    /* its node was moved, but the world did not follow at this tick: */
+  uint64_t displaced_at_tick;
+  sbf_vec3 queried_at;  /* position at the last query for bodies */
+  sbf_vec3 last_origin; /* of the node after the last step */
+} soft_placement;
+
+/* A character without pins (character_loose.c), and its last placement. */
+typedef struct soft_loose_motion {
+  bool is_loose;
+  sbr_double3 frame; /* its frame in the runtime, y above the ground there */
+  sbf_vec3 middle;   /* centre of its points at rest, from the node's origin, without rotation */
+} soft_loose_motion;
+
+/* Motion in the editor. */
+typedef struct soft_preview {
+  bool is_running;
+  gd_transform started_at;
+  gd_transform warned_at; /* transform at the last warnings of the editor */
+} soft_preview;
+
+/* A point that a script holds. */
+typedef struct soft_grab {
+  bool is_active;
+  surface_vertex vertex; /* its position: from the grabbed point */
+} soft_grab;
+
+/* Motion as a script sees it. */
+typedef struct soft_movement {
+  sbf_vec3 velocity;        /* m/s, of the script */
+  sbf_vec3 real_velocity;   /* m/s, measured */
+  sbf_vec3 wanted_velocity; /* m/s, at the last move_and_slide */
+  int64_t posture;          /* sbr_posture after the last step */
+} soft_movement;
+
+/* What links it with Godot's physics space. */
+typedef struct soft_physics {
+  physics_ground *ground;
+  physics_bodies *bodies; /* the shared world's */
+  physics_parts *parts;   /* NULL: none */
+} soft_physics;
+
+typedef struct soft_bounds {
+  sbf_vec3 low, high; /* m */
+} soft_bounds;
+
+typedef struct soft_character {
+  gd_variant node; /* itself, without a reference */
+  soft_resources resources;
   soft_settings settings;
-  bool editor;
+  bool is_in_editor;
 
   /* Set while there is an asset and the node is in a tree. */
   soft_model *model;
   shared_world *shared;
   sbr_world *world; /* its */
   sbr_character_id id;
-  sbf_vec3 low, high; /* of the asset at rest, m */
+  soft_bounds bounds; /* of the asset at rest */
   float scale;        /* scale of the node when it was created */
-  soft_detail_state detail;
-  bool loose;        /* without pins (character_loose.c); then, for its last placement: */
-  sbr_double3 frame; /* its frame in the runtime, y above the ground there */
-  sbf_vec3 middle;   /* centre of its points at rest, from the node's origin, without rotation */
-  bool placed;       /* on the ground, from the first physics frame on */
-  bool still;        /* it does not move: paused, or its node does not process */
-  double flat_y;     /* height of the flat ground */
-  gd_transform put;  /* where its own motion last moved the node */
-  bool displaced;    /* its node was moved, but the world did not follow at this tick: */
-  uint64_t tick;
-  sbf_vec3 looked;  /* position at the last query for bodies */
-  bool stale;       /* the mesh must be updated */
-  bool is_mirrored; /* its node has a negative scale */
-  bool previews;    /* it moves in the editor; before the preview it was at: */
-  gd_transform from;
-  gd_transform warned; /* transform at the last warnings of the editor */
+  soft_detail_state detail_state;
+  soft_loose_motion loose;
+  soft_placement placement;
+  soft_preview preview;
+  soft_movement movement;
+  soft_physics physics;
+  soft_grab grab;
   character_mesh *mesh;
-  gd_variant skeleton; /* Skeleton3D; nil: none */
-  physics_ground *ground;
-  physics_bodies *bodies; /* the shared world's */
-  physics_parts *parts;   /* NULL: none */
-  bool is_grabbed;        /* by a script: */
-  surface_vertex grabbed; /* its position: from the grabbed point */
-  clip_player *player;    /* NULL: nothing was played */
-  pose_driver *pose;      /* NULL: nothing was posed */
-  sbf_vec3 velocity, real_velocity,
-      wanted_velocity;  /* m/s: of a script; measured; at the last move_and_slide */
-  sbf_vec3 last_origin; /* of the node after the last step */
-  int64_t posture;      /* sbr_posture after the last step */
+  bool is_mesh_stale;
+  bool is_mirrored;         /* its node has a negative scale */
+  gd_variant skeleton;      /* Skeleton3D; nil: none */
+  clip_player *clip_player; /* NULL: nothing was played */
+  pose_driver *pose_driver; /* NULL: nothing was posed */
 } soft_character;
 
 /* Logs an error with the node's name. */

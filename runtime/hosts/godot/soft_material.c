@@ -39,7 +39,7 @@ static gd_variant decoded_texture(const sbf_texture *texture) {
 /* A resource of the project next to the bundle. */
 static gd_variant texture_beside(const soft_character *one, const sbf_texture *texture) {
   char bundle[512], path[1024], message[1280];
-  gd_variant loader = gd_singleton("ResourceLoader"), from = GD_CALL(&one->asset_value, "get_path");
+  gd_variant loader = gd_singleton("ResourceLoader"), from = GD_CALL(&one->resources.asset, "get_path");
   gd_as_text(&from, bundle, sizeof bundle);
   const char *end = strrchr(bundle, '/');
   snprintf(path, sizeof path, "%.*s%s", end ? (int)(end + 1 - bundle) : 0, bundle, texture->path);

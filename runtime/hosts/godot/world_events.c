@@ -107,8 +107,8 @@ static void report_postures(shared_world *shared) {
   for (uint32_t i = 0; i < shared_world_count(shared); i++) {
     soft_character *one = shared_world_at(shared, i);
     sbr_posture posture = sbr_character_get_posture(one->world, one->id);
-    if (posture == one->posture) continue;
-    one->posture = posture;
+    if (posture == one->movement.posture) continue;
+    one->movement.posture = posture;
     GD_DO(&one->node, "emit_signal", gd_name(signals[posture]));
   }
 }
