@@ -31,20 +31,26 @@ typedef struct leg_track {
   double stride_sum, period_sum, period_square_sum, air_sum;
 } leg_track;
 
+/* Motion of the hips, or the body without them. */
+typedef struct body_track {
+  int32_t bone;
+  int samples;
+  double position[3], velocity[3], angular_velocity[3]; /* of the previous frames */
+  sbf_quat rotation;
+  double max_speed_step, max_turn_step;
+} body_track;
+
 struct walk_report {
   const soles *soles;
   leg_track legs[MAX_LEGS];
   uint32_t leg_count, frames, planted_frames, skating_frames, opposite_frames;
-  int32_t body;
+  body_track body;
   double leg_length;
-  double knee_step, limit_excess, support_margin, body_step, body_turn_step;
+  double knee_step, limit_excess, support_margin;
   bool has_margin;
   double driven_m, gone_m, distance_m; /* after the start-up time; distance in the previous frame */
   point2 *points;                      /* (MAX_HULL) */
   sbr_transform *bones;
-  int body_samples;
-  double body_at[3], body_speed[3], body_turn[3];
-  sbf_quat body_rotation;
 };
 
 static double angle_between(sbf_vec3 a, sbf_vec3 b) {
@@ -71,7 +77,7 @@ walk_report *walk_report_create(const session *s, const soles *feet) {
   walk_report *r = calloc(1, sizeof *r);
   if (!r) return NULL;
   r->soles = feet;
-  r->body = gait->hips >= 0 ? gait->hips : gait->body;
+  r->body.bone = gait->hips >= 0 ? gait->hips : gait->body;
   r->points = malloc(MAX_HULL * sizeof *r->points);
   r->bones = malloc((asset->bones.count + 1u) * sizeof *r->bones);
   for (uint32_t l = 0; l < gait->legs.count && l < MAX_LEGS; l++) {
@@ -233,27 +239,27 @@ static void angular_velocity(sbf_quat a, sbf_quat b, double dt, double rate[3]) 
 
 static void measure_body(walk_report *r, const session *s, double dt) {
   sbr_double3 origin = sbr_character_get_origin(s->world, s->character);
-  const sbr_transform *b = &r->bones[r->body];
+  const sbr_transform *b = &r->bones[r->body.bone];
   double at[3] = {
       origin.x + (double)b->position.x, origin.y + (double)b->position.y, origin.z + (double)b->position.z};
-  if (r->body_samples > 0 && dt > 0) {
+  if (r->body.samples > 0 && dt > 0) {
     double speed[3], turned[3], change[3], turn_change[3];
-    angular_velocity(r->body_rotation, b->rotation, dt, turned);
+    angular_velocity(r->body.rotation, b->rotation, dt, turned);
     for (int i = 0; i < 3; i++) {
-      speed[i] = (at[i] - r->body_at[i]) / dt;
-      change[i] = (speed[i] - r->body_speed[i]) * FRAME_S * fmin(1, FRAME_S / dt);
-      turn_change[i] = (turned[i] - r->body_turn[i]) * FRAME_S * fmin(1, FRAME_S / dt);
+      speed[i] = (at[i] - r->body.position[i]) / dt;
+      change[i] = (speed[i] - r->body.velocity[i]) * FRAME_S * fmin(1, FRAME_S / dt);
+      turn_change[i] = (turned[i] - r->body.angular_velocity[i]) * FRAME_S * fmin(1, FRAME_S / dt);
     }
-    if (r->body_samples > 1) {
-      r->body_step = fmax(r->body_step, length3(change));
-      r->body_turn_step = fmax(r->body_turn_step, length3(turn_change));
+    if (r->body.samples > 1) {
+      r->body.max_speed_step = fmax(r->body.max_speed_step, length3(change));
+      r->body.max_turn_step = fmax(r->body.max_turn_step, length3(turn_change));
     }
-    memcpy(r->body_speed, speed, sizeof speed);
-    memcpy(r->body_turn, turned, sizeof turned);
+    memcpy(r->body.velocity, speed, sizeof speed);
+    memcpy(r->body.angular_velocity, turned, sizeof turned);
   }
-  memcpy(r->body_at, at, sizeof at);
-  r->body_rotation = b->rotation;
-  r->body_samples++;
+  memcpy(r->body.position, at, sizeof at);
+  r->body.rotation = b->rotation;
+  r->body.samples++;
 }
 
 static void measure_drive(walk_report *r, const session *s, double dt) {
@@ -320,6 +326,6 @@ void walk_report_add(const walk_report *r, const session *s, json_t *o) {
   if (r->has_margin) json_object_set_new(o, "support_margin", json_real(r->support_margin));
   if (r->driven_m > 0) json_object_set_new(o, "drive_kept", json_real(r->gone_m / r->driven_m));
   json_object_set_new(o, "limit_excess", json_real(r->limit_excess * DEGREES));
-  json_object_set_new(o, "body_speed_step", json_real(r->body_step));
-  json_object_set_new(o, "body_turn_step", json_real(r->body_turn_step));
+  json_object_set_new(o, "body_speed_step", json_real(r->body.max_speed_step));
+  json_object_set_new(o, "body_turn_step", json_real(r->body.max_turn_step));
 }

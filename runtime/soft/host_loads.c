@@ -57,7 +57,7 @@ static void hold(const sbri_character *c, const sbri_load *load, float mass, sbr
 
 static void prepare(const sbr_world *world, sbri_character *c, sbri_load *load) {
   const sbri_body *body = &c->model->bodies[load->body];
-  float tick_s = (float)world->tick_s, left = load->seconds;
+  float tick_s = (float)world->time.tick_s, left = load->seconds;
   load->impulse[0] = load->impulse[1] = load->impulse[2] = 0;
   if (load->kind == SBRI_LOAD_FORCE) load->seconds = left > tick_s ? left - tick_s : 0;
   if (!sbri_body_accepts_forces(c, body)) return;

@@ -23,12 +23,12 @@ bool sbri_island_may_divide(const sbri_character *c, uint32_t index) {
 
 void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index, const sbr_tasks *tasks) {
   if (sbri_island_sleeps(world, c, index)) return;
-  SBF_ASSERT(index < c->model->island_count && world->tick_s > 0 && c->time_scale > 0);
+  SBF_ASSERT(index < c->model->island_count && world->time.tick_s > 0 && c->time_scale > 0);
   const sbr_model *model = c->model;
   sbri_island now = sbri_island_now(c, &model->islands[index]);
   const sbri_island *island = &now;
   size_t first = island->first_slot;
-  float tick_s = (float)world->tick_s * c->time_scale;
+  float tick_s = (float)world->time.tick_s * c->time_scale;
   if (!sbri_island_update_drivers(c, island, index, tick_s)) return;
   sbri_compute_pin_targets(island, sbri_deltas(c), sbri_targets(c) + first);
   sbri_island_fill_unused_slots(c, island);

@@ -118,7 +118,7 @@ sbri_island_tick sbri_island_tick_of(
   size_t first = island->first_slot;
   return (sbri_island_tick){.model = c->model,
       .island = island,
-      .tick_s = (float)world->tick_s * c->time_scale,
+      .tick_s = (float)world->time.tick_s * c->time_scale,
       .fraction = 1,
       .collides = world->body_contacts && sbri_contact_islands(c)[index],
       .environment = environment_of(world, c),

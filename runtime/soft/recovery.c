@@ -111,7 +111,7 @@ static sbri_driver_motion motion_to_keep(const sbr_world *world, const sbri_char
   const sbri_body *body = &c->model->bodies[body_index];
   const sbri_recovery *recovery = &sbri_island_states(c)[body->island].recovery;
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
-  float elapsed_s = (float)(recovery->unsound_ticks + 1) * (float)world->tick_s * c->time_scale;
+  float elapsed_s = (float)(recovery->unsound_ticks + 1) * (float)world->time.tick_s * c->time_scale;
   sbf_vec3 fall_velocity = sbri_scale(g, body->source->attributes.gravity_scale * elapsed_s);
   sbri_driver_motion last_stable = sbri_driver_motions(c)[body_index];
   sbri_driver_motion expected = expected_motion(c, island, body_index, fall_velocity);
@@ -221,7 +221,7 @@ bool sbri_island_recover(
     state->damping_ticks--;
     damp_out(c, index, lost != NULL);
   }
-  if ((world->ticks + index) % CHECK_INTERVAL)
+  if ((world->time.ticks + index) % CHECK_INTERVAL)
     return state->recovery.ticks > 0 && sbri_is_inside_out(c, index) && put_back(world, c, index, lost);
   sbri_shape shape = sbri_shape_of(world, c, index);
   if (!shape.unstable)

@@ -82,7 +82,7 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!state->asleep) return false;
   bool checks = world->colliders.is_moving ||
-                (!sbri_ground_is_fixed(&c->ground) && (world->ticks + index) % CHECK_INTERVAL == 0);
+                (!sbri_ground_is_fixed(&c->ground) && (world->time.ticks + index) % CHECK_INTERVAL == 0);
   if (!have_pins_moved(c, island) && !(checks && find_ground_mark(world, c, index) != state->ground_mark))
     return true;
   sbri_island_wake(c, index);

@@ -22,13 +22,13 @@ sbr_collider_id sbri_collider_name(const sbri_collider_set *set, uint32_t number
 }
 
 void sbri_work_list(sbr_world *world) {
-  world->work_count = 0;
+  world->work.count = 0;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbr_model *model = world->characters[i].model;
     bool steps =
         model && !sbri_header(&world->characters[i])->paused && !sbri_header(&world->characters[i])->asleep;
     for (uint32_t k = 0; steps && k < model->island_count; k++)
-      SBF_ASSERT(world->work_count < world->work_capacity),
-          world->work[world->work_count++] = (sbri_work){i, k, false};
+      SBF_ASSERT(world->work.count < world->work.capacity),
+          world->work.at[world->work.count++] = (sbri_work){i, k, false};
   }
 }

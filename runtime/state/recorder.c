@@ -53,12 +53,12 @@ static void put_double(unsigned char *to, double value) {
 bool sbri_record(sbr_world *world, sbri_recorded what, const double *numbers) {
   unsigned char bytes[SBRI_RECORDED_HEADER_BYTES + SBRI_RECORDED_MAX * SBRI_RECORDED_NUMBER_BYTES];
   if (!sbri_usable(numbers, counts[what])) return false;
-  if (!world->record.write) return true;
+  if (!world->recording.output.write) return true;
   put_u32(bytes, (uint32_t)what);
   put_u32(bytes + 4, counts[what]);
   for (uint32_t i = 0; i < counts[what]; i++)
     put_double(bytes + SBRI_RECORDED_HEADER_BYTES + i * SBRI_RECORDED_NUMBER_BYTES, numbers[i]);
-  world->record.write(world->record.user, bytes,
+  world->recording.output.write(world->recording.output.user, bytes,
       SBRI_RECORDED_HEADER_BYTES + (size_t)counts[what] * SBRI_RECORDED_NUMBER_BYTES);
   return true;
 }

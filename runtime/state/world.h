@@ -44,34 +44,53 @@ typedef struct sbri_work {
   bool is_divided; /* among tasks of its own, after all others */
 } sbri_work;
 
+/* Islands to step in this tick, character after character. */
+typedef struct sbri_work_queue {
+  sbri_work *at; /* (count) */
+  size_t count, capacity;
+} sbri_work_queue;
+
+/* Simulated time, in ticks and in the units of frames. */
+typedef struct sbri_world_time {
+  double tick_s;
+  int64_t tick_units, longest_units;
+  uint64_t ticks;
+  int64_t ahead_units; /* time of the last tick minus the sampled time; may be less by SBRI_TIME_SLACK */
+  uint64_t stamp;      /* number of the sampled time, from 1 */
+} sbri_world_time;
+
+/* Processor time, by the host's clock. */
+typedef struct sbri_world_timing {
+  sbr_clock clock;     /* now_s NULL: no timing */
+  sbr_profile profile; /* of the last tick that was timed */
+} sbri_world_timing;
+
+typedef struct sbri_recording {
+  sbr_record_output output; /* write NULL: no recording */
+  uint64_t hashed_at_tick;  /* tick of the last recorded hash */
+} sbri_recording;
+
 struct sbr_world {
   sbf_allocator allocator;
   sbr_tasks tasks;
   sbr_ground ground;
   bool has_gravity;
   sbf_vec3 gravity;
-  double tick_s;
-  int64_t tick_units, longest_units;
-  uint64_t ticks;
-  int64_t ahead_units; /* time of the last tick minus the sampled time; may be less by SBRI_TIME_SLACK */
-  uint64_t stamp;      /* number of the sampled time, from 1 */
+  sbri_world_time time;
   sbri_collider_set colliders;
   struct sbri_body_contacts
       *body_contacts; /* coupling/body_contact/body_contacts.h; NULL: no contacts between characters */
   struct sbri_detail *detail; /* world/detail/choose.h; NULL: the host sets detail levels */
   sbri_character *characters; /* (character_capacity) */
   uint32_t character_capacity;
-  sbri_work *work; /* (work_count) of this tick, character after character */
-  size_t work_count, work_capacity;
+  sbri_work_queue work;
   uint32_t sleep_ticks; /* ticks at rest before sleep; 0: no sleep */
   uint32_t awake_count; /* soft bodies stepped in the last tick */
   sbri_events events;
-  float hit_speed;          /* m/s */
-  sbr_clock clock;          /* now_s NULL: no timing */
-  sbr_profile profile;      /* of the last tick that was timed */
-  sbr_record_output record; /* write NULL: no recording */
-  uint64_t recorded_at;     /* tick of the last recorded hash */
-  void *user_data;          /* the host's */
+  float hit_speed; /* m/s */
+  sbri_world_timing timing;
+  sbri_recording recording;
+  void *user_data; /* the host's */
 };
 
 /* ---- state/character_pool.c ---- */

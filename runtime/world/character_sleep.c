@@ -36,7 +36,7 @@ bool sbri_character_is_still(const sbri_character *c) {
 
 bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
   if (!sbri_header(c)->asleep) return false;
-  bool checks = !sbri_ground_is_fixed(&c->ground) && world->ticks % CHECK_INTERVAL == 0;
+  bool checks = !sbri_ground_is_fixed(&c->ground) && world->time.ticks % CHECK_INTERVAL == 0;
   if (!checks && !world->colliders.is_moving) return true;
   /* The feet and the bodies make their own checks. */
   sbri_header(c)->asleep = 0;

@@ -54,7 +54,7 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
   pose[sbri_root_frame(c->model)] = sbri_current_root_frame(c, input.ground);
   if (sbri_character_is_grouped(world, c)) return;
   sbri_rigid_tick_parts(world, c);
-  sbri_jiggles_tick(c, (float)world->tick_s * c->time_scale);
+  sbri_jiggles_tick(c, (float)world->time.tick_s * c->time_scale);
   if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_deltas(c));
   sbri_header(c)->asleep = may_sleep && !world->colliders.is_moving && sbri_character_is_still(c);
 }

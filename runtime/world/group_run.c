@@ -31,7 +31,7 @@ static sbri_group_member member_of(const sbr_world *world, sbri_character *c, sb
       .scale = c->scale,
       .velocity_scale = c->scale * c->time_scale,
       .mass = c->scale * c->scale * c->scale,
-      .tick_s = (float)world->tick_s * c->time_scale};
+      .tick_s = (float)world->time.tick_s * c->time_scale};
   m.pinned_rate = 1 / m.tick_s;
   return m;
 }
@@ -227,7 +227,7 @@ static void run_steps(const sbr_world *world, sbri_contact_group *group, uint32_
     if (done == steps || deep_exit || left <= steps - done) continue;
     begin = to, steps = left, done = 0;
     sbri_contacts_scale_impulses(
-        world->body_contacts, group, (float)world->tick_s * (1 - begin) / (float)steps);
+        world->body_contacts, group, (float)world->time.tick_s * (1 - begin) / (float)steps);
   }
 }
 
@@ -245,7 +245,7 @@ void sbri_group_run(sbr_world *world, sbri_contact_group *group) {
     steps = needed > steps ? needed : steps;
   }
   group->step_s =
-      (float)world->tick_s; /* bodies moved by bones are not stepped, but their contacts are stored */
+      (float)world->time.tick_s; /* bodies moved by bones are not stepped, but their contacts are stored */
   if (steps > 0) {
     steps = rounded_steps(steps);
     for (uint32_t i = 0; i < group->member_count; i++)

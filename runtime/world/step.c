@@ -38,7 +38,7 @@ static bool is_stepped_alone(const sbr_world *world, const sbri_work *work) {
 
 static void tick_island(void *context, uint32_t index) {
   sbr_world *world = context;
-  const sbri_work *work = &world->work[index];
+  const sbri_work *work = &world->work.at[index];
   if (!work->is_divided && is_stepped_alone(world, work))
     sbri_island_run(world, &world->characters[work->character], work->island, NULL);
 }
@@ -46,14 +46,14 @@ static void tick_island(void *context, uint32_t index) {
 /* Marks the large islands whose work is divided. */
 static uint32_t mark_divided(sbr_world *world) {
   uint32_t count = 0;
-  for (uint32_t i = 0; world->tasks.run && i < world->work_count; i++) {
-    sbri_work *work = &world->work[i];
+  for (uint32_t i = 0; world->tasks.run && i < world->work.count; i++) {
+    sbri_work *work = &world->work.at[i];
     work->is_divided = is_stepped_alone(world, work) &&
                        sbri_island_may_divide(&world->characters[work->character], work->island);
     count += work->is_divided;
   }
   if (count <= MAX_DIVIDED) return count;
-  for (uint32_t i = 0; i < world->work_count; i++) world->work[i].is_divided = false;
+  for (uint32_t i = 0; i < world->work.count; i++) world->work.at[i].is_divided = false;
   return 0;
 }
 
@@ -70,17 +70,17 @@ static void run(sbr_world *world, sbr_task *task, size_t count) {
 }
 
 static void follow_tears(sbr_world *world) {
-  for (uint32_t i = 0; i < world->work_count; i++) {
-    sbri_character *c = &world->characters[world->work[i].character];
-    uint32_t island = world->work[i].island;
+  for (uint32_t i = 0; i < world->work.count; i++) {
+    sbri_character *c = &world->characters[world->work.at[i].character];
+    uint32_t island = world->work.at[i].island;
     if (c->model->islands[island].splits && sbri_tears_of(c)[island].count > 0) sbri_skins_follow(c, island);
   }
 }
 
 void sbri_step_tick(sbr_world *world) {
-  world->ticks++;
+  world->time.ticks++;
   sbri_stages_begin(world);
-  sbri_colliders_begin_tick(&world->colliders, world->tick_s);
+  sbri_colliders_begin_tick(&world->colliders, world->time.tick_s);
   sbri_stage_end(world, SBR_STAGE_COLLIDERS);
   if (world->body_contacts) sbri_near_characters_find(world);
   if (world->detail) sbri_detail_choose(world);
@@ -98,9 +98,9 @@ void sbri_step_tick(sbr_world *world) {
   sbri_stage_end(world, SBR_STAGE_CONTACT_GROUPS);
   sbri_work_list(world);
   uint32_t divided_count = mark_divided(world);
-  if (divided_count < world->work_count) run(world, tick_island, world->work_count);
-  for (uint32_t i = 0; divided_count > 0 && i < world->work_count; i++) {
-    const sbri_work *work = &world->work[i];
+  if (divided_count < world->work.count) run(world, tick_island, world->work.count);
+  for (uint32_t i = 0; divided_count > 0 && i < world->work.count; i++) {
+    const sbri_work *work = &world->work.at[i];
     if (work->is_divided)
       sbri_island_run(world, &world->characters[work->character], work->island, &world->tasks);
   }

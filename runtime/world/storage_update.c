@@ -10,7 +10,7 @@ static const float KEPT_S = 1, RETRY_S = 0.5f;
 /* Reports the failure to the host. */
 static void report_refusal(sbr_world *world, sbri_character *c, sbr_memory_use use) {
   c->refused_ticks = sbri_ticks_of(world, RETRY_S);
-  sbr_memory_event event = {.tick = world->ticks, .character = sbri_id_of(world, c), .use = use};
+  sbr_memory_event event = {.tick = world->time.ticks, .character = sbri_id_of(world, c), .use = use};
   sbri_event_add(world, SBRI_EVENT_MEMORY_REFUSED, &event);
 }
 

@@ -11,7 +11,7 @@ static sbr_double3 in_world(const sbri_character *c, sbf_vec3 position) {
 
 static void add_soft_body_event(
     sbr_world *world, const sbri_character *c, sbri_event_kind kind, uint32_t soft_body, sbf_vec3 position) {
-  sbr_soft_body_event event = {.tick = world->ticks,
+  sbr_soft_body_event event = {.tick = world->time.ticks,
       .character = sbri_id_of(world, c),
       .soft_body = soft_body,
       .position = in_world(c, sbri_scale(position, c->scale))};
@@ -92,7 +92,7 @@ static void apply_reactions(
 static void add_contact(sbr_world *world, const sbri_character *c, const sbr_object *body,
     const sbri_contact_report *one, sbri_event_kind kind) {
   bool is_over = kind == SBRI_EVENT_CONTACT_END;
-  sbr_contact_event event = {.tick = world->ticks,
+  sbr_contact_event event = {.tick = world->time.ticks,
       .a = *body,
       .b = {.soft_body = -1, .rigid_body = -1},
       .position = in_world(c, sbri_scale(one->position, c->scale)),
@@ -142,7 +142,7 @@ static void add_feet(sbr_world *world, const sbri_character *c) {
       [SBRI_GAIT_LANDED] = SBRI_EVENT_LANDED};
   for (uint32_t e = 0; e < c->event_count; e++) {
     const sbri_gait_event *from = &c->events[e];
-    sbr_foot_event event = {.tick = world->ticks,
+    sbr_foot_event event = {.tick = world->time.ticks,
         .character = sbri_id_of(world, c),
         .leg = from->leg,
         .position = in_world(c, from->position)};
@@ -162,7 +162,7 @@ static void add_tears(sbr_world *world, const sbri_character *c, uint32_t index)
 
 static void add_detail_change(sbr_world *world, sbri_character *c) {
   if (!c->left_detail_level_plus_1) return;
-  sbr_detail_event event = {.tick = world->ticks,
+  sbr_detail_event event = {.tick = world->time.ticks,
       .character = sbri_id_of(world, c),
       .from = c->left_detail_level_plus_1 - 1,
       .to = sbri_header(c)->detail_level};
@@ -190,10 +190,10 @@ void sbri_tick_events_gather(sbr_world *world) {
 
 void sbri_tick_sleep_note(sbr_world *world) {
   world->awake_count = 0;
-  for (size_t i = 0; i < world->work_count; i++) {
-    const sbri_character *c = &world->characters[world->work[i].character];
-    const sbri_island *island = &c->model->islands[world->work[i].island];
-    sbri_island_state *state = &sbri_island_states(c)[world->work[i].island];
+  for (size_t i = 0; i < world->work.count; i++) {
+    const sbri_character *c = &world->characters[world->work.at[i].character];
+    const sbri_island *island = &c->model->islands[world->work.at[i].island];
+    sbri_island_state *state = &sbri_island_states(c)[world->work.at[i].island];
     if (!state->asleep) world->awake_count += island->body_count;
     if (state->asleep == state->reported_asleep) continue;
     state->reported_asleep = state->asleep;

@@ -27,13 +27,13 @@ START_TEST(notes_hang_from_the_top)
   static const draw_camera camera = {.distance = 1, .half_height = 1};
   static const draw_colour red = {255, 0, 0, 255};
   draw_scene_add_note(scene, "it's 1,5 %", &red);
-  size_t one = scene->overlay.count;
+  size_t one = scene->overlay.lines.count;
   ck_assert_uint_gt(one, 10);
   draw_scene_add_note(scene, "it's 1,5 %", NULL);
-  ck_assert_uint_lt(scene->overlay.count - one, one);
+  ck_assert_uint_lt(scene->overlay.lines.count - one, one);
   draw_scene_arrange_overlay(scene, &camera, 1440, 1440);
-  const draw_line *lines = scene->placed_overlay.at;
-  for (size_t i = 0; i < scene->placed_overlay.count; i++) {
+  const draw_line *lines = scene->painted.overlay.at;
+  for (size_t i = 0; i < scene->painted.overlay.count; i++) {
     ck_assert_float_gt(lines[i].from.y, i < one ? 0.92f : 0.85f);
     ck_assert_float_lt(lines[i].from.y, i < one ? 1 : 0.92f);
     ck_assert_float_lt(lines[i].from.x, -0.69f);
@@ -130,8 +130,8 @@ START_TEST(far_lines_come_first)
   enum { COUNT = 7 };
   for (int i = 0; i < COUNT; i++) draw_scene_add_dot(scene, v3(0, 0, depths[i]), 1, draw_colour_rgb(0));
   draw_scene_sort(scene, v3(0, 0, 20), v3(0, 0, 1));
-  const draw_line *sorted = scene->sorted_lines.at;
-  ck_assert_uint_eq(scene->sorted_lines.count, COUNT);
+  const draw_line *sorted = scene->painted.sorted_lines.at;
+  ck_assert_uint_eq(scene->painted.sorted_lines.count, COUNT);
   for (int i = 1; i < COUNT; i++) ck_assert_float_ge(sorted[i].from.z, sorted[i - 1].from.z);
 }
 END_TEST
@@ -148,9 +148,9 @@ START_TEST(far_veils_come_first)
     draw_scene_add_mesh(scene, &square);
   }
   draw_scene_sort(scene, v3(0, 0, 20), v3(0, 0, 1));
-  const uint32_t *order = scene->sorted_parts.at;
+  const uint32_t *order = scene->painted.sorted_parts.at;
   const draw_scene_part *parts = scene->parts.at;
-  ck_assert_uint_eq(scene->sorted_parts.count, 3);
+  ck_assert_uint_eq(scene->painted.sorted_parts.count, 3);
   ck_assert_float_eq(parts[order[0]].middle.z, -3);
   ck_assert_float_eq(parts[order[2]].middle.z, 4);
 }
@@ -204,7 +204,8 @@ START_TEST(steady_frames_allocate_nothing)
     for (int i = 0; i < 500; i++) draw_scene_add_dot(scene, v3(0, 0, (float)i), 1, draw_colour_rgb(0));
     draw_scene_set_floor(scene, 0);
     draw_scene_sort(scene, v3(0, 0, 20), v3(0, 0, 1));
-    const void *now[4] = {scene->positions.at, scene->indices.at, scene->lines.at, scene->sorted_lines.at};
+    const void *now[4] = {
+        scene->positions.at, scene->indices.at, scene->lines.at, scene->painted.sorted_lines.at};
     for (int k = 0; k < 4; k++) {
       if (frame) ck_assert_ptr_eq(now[k], positions[k]);
       positions[k] = now[k];

@@ -18,16 +18,16 @@ START_TEST(vertices_lie_on_the_ground)
 {
   draw_scene *scene = draw_scene_create();
   draw_scene_set_terrain(scene, hills, NULL, 3, -2, 10);
-  const sbf_vec3 *at = scene->ground_positions.at;
+  const sbf_vec3 *at = scene->ground.positions.at;
   box3 box = box3_empty();
-  ck_assert_uint_gt(scene->ground_positions.count, 1000);
-  for (size_t i = 0; i < scene->ground_positions.count; i++) {
+  ck_assert_uint_gt(scene->ground.positions.count, 1000);
+  for (size_t i = 0; i < scene->ground.positions.count; i++) {
     ck_assert_float_eq(at[i].y, hills(NULL, at[i].x, at[i].z));
     box3_add(&box, at[i]);
   }
   ck_assert(box.min.x <= -7 && box.max.x >= 13 && box.min.z <= -12 && box.max.z >= 8);
-  const sbf_vec3 *normals = scene->ground_normals.at;
-  for (size_t i = 0; i < scene->ground_normals.count; i++) ck_assert_float_gt(normals[i].y, 0.5f);
+  const sbf_vec3 *normals = scene->ground.normals.at;
+  for (size_t i = 0; i < scene->ground.normals.count; i++) ck_assert_float_gt(normals[i].y, 0.5f);
   draw_scene_destroy(scene);
 }
 END_TEST
@@ -38,8 +38,8 @@ START_TEST(stairs_stay_sharp)
   draw_scene *scene = draw_scene_create();
   int treads = 0, risers = 0;
   draw_scene_set_terrain(scene, stairs, NULL, 0, 1, 3);
-  const sbf_vec3 *normals = scene->ground_normals.at, *at = scene->ground_positions.at;
-  for (size_t i = 0; i < scene->ground_normals.count; i++) {
+  const sbf_vec3 *normals = scene->ground.normals.at, *at = scene->ground.positions.at;
+  for (size_t i = 0; i < scene->ground.normals.count; i++) {
     if (fabsf(at[i].z - 1) > 2) continue; /* the grid is fine enough for the steps this near */
     treads += normals[i].y > 0.99f;
     risers += normals[i].z < -0.99f;
@@ -59,8 +59,8 @@ START_TEST(grid_keeps_to_its_places)
   float cell = 4.0f / 168;
   for (int step = 0; step < 5; step++) {
     draw_scene_set_terrain(scene, hills, NULL, 0.013f * (float)step, 0, 4);
-    const sbf_vec3 *at = scene->ground_positions.at;
-    for (size_t i = 0; i < scene->ground_positions.count; i++)
+    const sbf_vec3 *at = scene->ground.positions.at;
+    for (size_t i = 0; i < scene->ground.positions.count; i++)
       ck_assert_float_le(fabsf(at[i].x / cell - roundf(at[i].x / cell)), 2e-3f);
   }
   draw_scene_destroy(scene);
@@ -72,7 +72,7 @@ START_TEST(no_place_no_ground)
   draw_scene *scene = draw_scene_create();
   draw_scene_set_terrain(scene, hills, NULL, NAN, 0, 4);
   draw_scene_set_terrain(scene, hills, NULL, 0, 0, 0);
-  ck_assert_uint_eq(scene->ground_indices.count, 0);
+  ck_assert_uint_eq(scene->ground.indices.count, 0);
   draw_scene_destroy(scene);
 }
 END_TEST

@@ -53,8 +53,8 @@ void draw_scene_rim_marks(draw_scene *scene) {
   static const draw_colour pale = {250, 250, 246, 255};
   const draw_line *marks = scene->marks.at;
   size_t count = scene->marks.count;
-  scene->mark_rims.count = 0;
-  draw_line *rims = draw_scene_list_push(scene, &scene->mark_rims, count, sizeof *rims);
+  scene->painted.mark_rims.count = 0;
+  draw_line *rims = draw_scene_list_push(scene, &scene->painted.mark_rims, count, sizeof *rims);
   for (size_t i = 0; rims && i < count; i++)
     rims[i] = (draw_line){marks[i].from, marks[i].to, pale, pale, marks[i].width + rim_width};
 }

@@ -14,26 +14,26 @@ draw_scene *draw_scene_create(void) {
 void draw_scene_destroy(draw_scene *scene) {
   if (!scene) return;
   draw_scene_list *lists[] = {&scene->positions, &scene->normals, &scene->colours, &scene->uvs,
-      &scene->smooth_normals, &scene->indices, &scene->parts, &scene->lines, &scene->sorted_lines,
-      &scene->marks, &scene->prints, &scene->mark_rims, &scene->line_corners, &scene->sorted_parts,
-      &scene->overlay, &scene->placed_overlay, &scene->ground_positions, &scene->ground_normals,
-      &scene->ground_indices};
+      &scene->smooth_normals, &scene->indices, &scene->parts, &scene->lines, &scene->painted.sorted_lines,
+      &scene->marks, &scene->prints, &scene->painted.mark_rims, &scene->painted.line_corners,
+      &scene->painted.sorted_parts, &scene->overlay.lines, &scene->painted.overlay, &scene->ground.positions,
+      &scene->ground.normals, &scene->ground.indices};
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) free(lists[i]->at);
   free(scene);
 }
 
 void draw_scene_clear_ground(draw_scene *scene) {
-  scene->ground_positions.count = scene->ground_normals.count = scene->ground_indices.count = 0;
+  scene->ground.positions.count = scene->ground.normals.count = scene->ground.indices.count = 0;
   scene->has_floor = false;
 }
 
 void draw_scene_clear(draw_scene *scene) {
   scene->positions.count = scene->normals.count = scene->colours.count = scene->uvs.count = 0;
   scene->indices.count = scene->parts.count = 0;
-  scene->lines.count = scene->sorted_lines.count = scene->sorted_parts.count = 0;
-  scene->marks.count = scene->prints.count = scene->mark_rims.count = 0;
-  scene->overlay.count = scene->placed_overlay.count = 0;
-  scene->overlay_rows = scene->note_rows = 0;
+  scene->lines.count = scene->painted.sorted_lines.count = scene->painted.sorted_parts.count = 0;
+  scene->marks.count = scene->prints.count = scene->painted.mark_rims.count = 0;
+  scene->overlay.lines.count = scene->painted.overlay.count = 0;
+  scene->overlay.rows = scene->overlay.note_rows = 0;
   draw_scene_clear_ground(scene);
   scene->bounds = scene->casters = box3_empty();
   scene->failed = false;
@@ -304,10 +304,10 @@ void draw_scene_set_ground(draw_scene *scene, const sbf_vec3 *positions, const s
     uint32_t vertex_count, const uint32_t *triangles, uint32_t triangle_count) {
   draw_scene_clear_ground(scene);
   if (triangle_count == 0 || vertex_count == 0 || triangle_count > UINT32_MAX / 3) return;
-  sbf_vec3 *to = draw_scene_list_push(scene, &scene->ground_positions, vertex_count, sizeof *to);
-  sbf_vec3 *normal = draw_scene_list_push(scene, &scene->ground_normals, vertex_count, sizeof *normal);
+  sbf_vec3 *to = draw_scene_list_push(scene, &scene->ground.positions, vertex_count, sizeof *to);
+  sbf_vec3 *normal = draw_scene_list_push(scene, &scene->ground.normals, vertex_count, sizeof *normal);
   uint32_t *index =
-      draw_scene_list_push(scene, &scene->ground_indices, 3 * (size_t)triangle_count, sizeof *index);
+      draw_scene_list_push(scene, &scene->ground.indices, 3 * (size_t)triangle_count, sizeof *index);
   if (!to || !normal || !index) {
     draw_scene_clear_ground(scene);
     return;
@@ -319,7 +319,7 @@ void draw_scene_set_ground(draw_scene *scene, const sbf_vec3 *positions, const s
     if (!in_range(triangle, vertex_count)) continue;
     for (int k = 0; k < 3; k++) index[count++] = triangle[k];
   }
-  scene->ground_indices.count = count;
+  scene->ground.indices.count = count;
   if (normals)
     memcpy(normal, normals, vertex_count * sizeof *normal);
   else

@@ -21,6 +21,30 @@ typedef struct draw_scene_part {
   bool one_sided, casts_shadow;
 } draw_scene_part;
 
+/* Triangles of the ground. */
+typedef struct draw_scene_ground {
+  draw_scene_list positions, normals; /* sbf_vec3 */
+  draw_scene_list indices;            /* uint32_t */
+} draw_scene_ground;
+
+/* Text and figures over the picture. */
+typedef struct draw_scene_overlay {
+  draw_scene_list lines; /* draw_line; x and y from the picture's lower left corner, or if z is 1 from its
+                            upper left one, in overlay units */
+  uint32_t rows, note_rows;
+  bool from_top; /* the current item is relative to the top */
+} draw_scene_overlay;
+
+/* What the painter fills for a camera. */
+typedef struct draw_scene_painted {
+  draw_scene_list sorted_lines; /* draw_line, farthest first */
+  draw_scene_list mark_rims;    /* draw_line, behind the marks */
+  draw_scene_list line_corners; /* draw_line, each four times */
+  draw_scene_list sorted_parts; /* uint32_t: transparent parts, farthest first */
+  draw_scene_list overlay;      /* draw_line, in world space */
+  uint32_t xray_count;          /* number of x-ray parts */
+} draw_scene_painted;
+
 struct draw_scene {
   draw_scene_list positions, normals, colours; /* (vertices) sbf_vec3, sbf_vec3, colour; all in world space */
   draw_scene_list uvs;                         /* (vertices) sbf_vec2; 0 without an image */
@@ -28,19 +52,11 @@ struct draw_scene {
   draw_scene_list indices;                     /* uint32_t, three per triangle */
   draw_scene_list parts;                       /* draw_scene_part */
   draw_scene_list lines;                       /* draw_line */
-  draw_scene_list sorted_lines;                /* draw_line, farthest first: filled by the painter */
   draw_scene_list marks;                       /* draw_line */
   draw_scene_list prints;                      /* draw_line */
-  draw_scene_list mark_rims;                   /* draw_line, behind the marks: filled by the painter */
-  draw_scene_list line_corners;                /* draw_line, each four times: filled by the painter */
-  draw_scene_list sorted_parts;                /* uint32_t: transparent parts, farthest first */
-  draw_scene_list ground_positions, ground_normals, ground_indices;
-  draw_scene_list overlay; /* draw_line; x and y from the picture's lower left corner, or if z is 1 from its
-                              upper left one, in overlay units */
-  uint32_t overlay_rows, note_rows;
-  uint32_t veil_count;            /* number of x-ray parts: filled by the painter */
-  bool overlay_from_top;          /* the current overlay item is relative to the top */
-  draw_scene_list placed_overlay; /* draw_line, in world space: filled by the painter */
+  draw_scene_ground ground;
+  draw_scene_overlay overlay;
+  draw_scene_painted painted;
   box3 bounds;
   box3 casters; /* bounds of shadow casters */
   bool has_floor;
@@ -78,10 +94,10 @@ void draw_scene_smooth_normals(const sbf_vec3 *positions, uint32_t vertex_count,
 void draw_scene_arrange_overlay(
     draw_scene *scene, const draw_camera *camera, uint32_t width, uint32_t height);
 
-/* Fills mark_rims. */
+/* Fills painted.mark_rims. */
 void draw_scene_rim_marks(draw_scene *scene);
 
-/* Fills sorted_lines and sorted_parts for an eye position; `back` as in draw_camera_back. */
+/* Fills the sorted lists of `painted` for an eye position; `back` as in draw_camera_back. */
 void draw_scene_sort(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back);
 
 #endif

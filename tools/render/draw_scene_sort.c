@@ -19,9 +19,9 @@ static void sort_lines(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back) {
   const draw_line *lines = scene->lines.at;
   size_t count = scene->lines.count, starts[BUCKET_COUNT + 1] = {0};
   float nearest = INFINITY, farthest = -INFINITY;
-  scene->sorted_lines.count = 0;
+  scene->painted.sorted_lines.count = 0;
   if (count == 0) return;
-  draw_line *sorted = draw_scene_list_push(scene, &scene->sorted_lines, count, sizeof *sorted);
+  draw_line *sorted = draw_scene_list_push(scene, &scene->painted.sorted_lines, count, sizeof *sorted);
   if (!sorted) return;
   for (size_t i = 0; i < count; i++) {
     float depth = line_depth(&lines[i], eye, back);
@@ -38,13 +38,13 @@ static void sort_lines(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back) {
 /* They are few, so insertion sort is best. */
 static void sort_parts(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back) {
   const draw_scene_part *parts = scene->parts.at;
-  scene->sorted_parts.count = scene->veil_count = 0;
+  scene->painted.sorted_parts.count = scene->painted.xray_count = 0;
   for (size_t i = 0; i < scene->parts.count; i++) {
     if (parts[i].transparency <= 0 && parts[i].alpha != DRAW_BLEND) continue;
-    if (!draw_scene_list_push(scene, &scene->sorted_parts, 1, sizeof(uint32_t))) return;
-    scene->veil_count += parts[i].transparency > 0;
-    uint32_t *order = scene->sorted_parts.at;
-    size_t at = scene->sorted_parts.count - 1;
+    if (!draw_scene_list_push(scene, &scene->painted.sorted_parts, 1, sizeof(uint32_t))) return;
+    scene->painted.xray_count += parts[i].transparency > 0;
+    uint32_t *order = scene->painted.sorted_parts.at;
+    size_t at = scene->painted.sorted_parts.count - 1;
     float depth = v3_dot(v3_sub(eye, parts[i].middle), back);
     for (; at > 0 && v3_dot(v3_sub(eye, parts[order[at - 1]].middle), back) < depth; at--)
       order[at] = order[at - 1];

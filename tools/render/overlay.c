@@ -75,8 +75,8 @@ static const char *strokes_of(char c) {
 }
 
 static void add_overlay_line(draw_scene *scene, sbf_vec2 from, sbf_vec2 to, draw_colour colour, float width) {
-  draw_line *stored = draw_scene_list_push(scene, &scene->overlay, 1, sizeof *stored);
-  float side = scene->overlay_from_top ? 1 : 0;
+  draw_line *stored = draw_scene_list_push(scene, &scene->overlay.lines, 1, sizeof *stored);
+  float side = scene->overlay.from_top ? 1 : 0;
   if (stored) *stored = (draw_line){{from.x, from.y, side}, {to.x, to.y, side}, colour, colour, width};
 }
 
@@ -115,22 +115,22 @@ static float add_words(draw_scene *scene, const char *words, sbf_vec2 at) {
 }
 
 void draw_scene_add_legend(draw_scene *scene, const char *name, draw_colour colour) {
-  sbf_vec2 at = {left, bottom + row * (float)scene->overlay_rows++};
+  sbf_vec2 at = {left, bottom + row * (float)scene->overlay.rows++};
   sbf_vec2 from = {at.x, at.y + 2 * letter_scale}, to = {at.x + swatch, from.y};
   add_overlay_line(scene, from, to, colour, 4);
   add_words(scene, name, (sbf_vec2){at.x + swatch + 10, at.y});
 }
 
 void draw_scene_add_note(draw_scene *scene, const char *words, const draw_colour *colour) {
-  sbf_vec2 at = {left, -bottom - row * (float)scene->note_rows++};
-  scene->overlay_from_top = true;
+  sbf_vec2 at = {left, -bottom - row * (float)scene->overlay.note_rows++};
+  scene->overlay.from_top = true;
   if (colour) {
     sbf_vec2 from = {at.x, at.y + 2 * letter_scale}, to = {at.x + 0.5f * swatch, from.y};
     add_overlay_line(scene, from, to, *colour, 7);
     at.x += 0.5f * swatch + 10;
   }
   add_words(scene, words, at);
-  scene->overlay_from_top = false;
+  scene->overlay.from_top = false;
 }
 
 void draw_scene_add_scale(
@@ -138,8 +138,8 @@ void draw_scene_add_scale(
   enum { PIECES = 64 };
   const float length = 220;
   const char *const words[3] = {low, middle, high};
-  float y = bottom + row * (float)scene->overlay_rows;
-  scene->overlay_rows += 2;
+  float y = bottom + row * (float)scene->overlay.rows;
+  scene->overlay.rows += 2;
   for (int i = 0; i < 3; i++) {
     if (!words[i]) continue;
     float wide = add_words(NULL, words[i], (sbf_vec2){0, 0});
@@ -154,10 +154,10 @@ void draw_scene_add_scale(
 
 void draw_scene_arrange_overlay(
     draw_scene *scene, const draw_camera *camera, uint32_t width, uint32_t height) {
-  const draw_line *lines = scene->overlay.at;
-  size_t count = scene->overlay.count;
-  scene->placed_overlay.count = 0;
-  draw_line *placed = draw_scene_list_push(scene, &scene->placed_overlay, count, sizeof *placed);
+  const draw_line *lines = scene->overlay.lines.at;
+  size_t count = scene->overlay.lines.count;
+  scene->painted.overlay.count = 0;
+  draw_line *placed = draw_scene_list_push(scene, &scene->painted.overlay, count, sizeof *placed);
   if (!placed) return;
   sbf_vec3 back = draw_camera_back(camera);
   sbf_vec3 right = v3_unit(v3_cross(v3(0, 1, 0), back), v3(1, 0, 0)), over = v3_cross(back, right);

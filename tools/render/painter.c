@@ -87,8 +87,8 @@ static void upload_scene(
     upload_floor(painter, gl, scene, subject, ground_radius);
   } else {
     mesh_buffers_fill(
-        &painter->ground, gl, &scene->ground_positions, &scene->ground_normals, &scene->ground_indices);
-    painter->ground_indices = (GLsizei)scene->ground_indices.count;
+        &painter->ground, gl, &scene->ground.positions, &scene->ground.normals, &scene->ground.indices);
+    painter->ground_indices = (GLsizei)scene->ground.indices.count;
   }
 }
 
@@ -231,10 +231,11 @@ static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw
 static void paint_lines(draw_painter *painter, const gl_api *gl, draw_scene *scene,
     const draw_scene_list *list, float murk, float thinness) {
   const draw_line *lines = list->at;
-  scene->line_corners.count = 0;
+  scene->painted.line_corners.count = 0;
   if (list->count == 0) return;
   gl->BindVertexArray(painter->lines.array);
-  draw_line *corners = draw_scene_list_push(scene, &scene->line_corners, 4 * list->count, sizeof *corners);
+  draw_line *corners =
+      draw_scene_list_push(scene, &scene->painted.line_corners, 4 * list->count, sizeof *corners);
   if (!corners || !line_buffers_grow(&painter->lines, gl, list->count)) {
     scene->failed = true;
     return;
@@ -263,7 +264,7 @@ static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene
   gl->DepthFunc(GL_LESS);
   const mesh_parts parts = parts_of(painter, gl, scene);
   use_depth(painter, gl);
-  if (scene->veil_count) paint_veil_depths(painter, gl, scene);
+  if (scene->painted.xray_count) paint_veil_depths(painter, gl, scene);
   begin_depth_map(gl, painter->layers.line_frame, painter->layers.width, painter->layers.height, 1);
   gl->ClearColor(0, 0, 0, 0);
   gl->Clear(GL_COLOR_BUFFER_BIT);
@@ -277,8 +278,9 @@ static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene
   gl->Enable(GL_BLEND);
   gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   /* Twice the lines on the same body have half the space between them. */
-  float thinness = fminf(fmaxf(sqrtf(4000 / (float)scene->sorted_lines.count), 0.35f), 1);
-  paint_lines(painter, gl, scene, &scene->sorted_lines, scene->veil_count ? 1.0f : 0.0f, thinness);
+  float thinness = fminf(fmaxf(sqrtf(4000 / (float)scene->painted.sorted_lines.count), 0.35f), 1);
+  paint_lines(
+      painter, gl, scene, &scene->painted.sorted_lines, scene->painted.xray_count ? 1.0f : 0.0f, thinness);
   gl->Disable(GL_BLEND);
   gl->DepthMask(GL_TRUE);
   bind_texture(gl, UNIT_LINE_LAYER, painter->layers.line_texture, 0);
@@ -290,7 +292,7 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   gl->DepthMask(GL_FALSE);
   gl->DepthFunc(GL_LESS);
   paint_lines(painter, gl, scene, &scene->prints, 0, 1);
-  if (scene->sorted_lines.count) {
+  if (scene->painted.sorted_lines.count) {
     gl->Disable(GL_DEPTH_TEST);
     gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl->UseProgram(painter->programs.at[PROGRAM_LAYER]);
@@ -300,9 +302,9 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
     gl->Enable(GL_DEPTH_TEST);
   }
   const mesh_parts meshes = parts_of(painter, gl, scene);
-  const uint32_t *order = scene->sorted_parts.at;
+  const uint32_t *order = scene->painted.sorted_parts.at;
   const draw_scene_part *parts = scene->parts.at;
-  for (size_t i = 0; i < scene->sorted_parts.count; i++) {
+  for (size_t i = 0; i < scene->painted.sorted_parts.count; i++) {
     if (parts[order[i]].transparency > 0)
       paint_veil(painter, gl, &parts[order[i]]);
     else
@@ -310,22 +312,22 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   }
   gl->DepthMask(GL_TRUE);
   gl->Disable(GL_DEPTH_TEST);
-  paint_lines(painter, gl, scene, &scene->mark_rims, 0, 1);
+  paint_lines(painter, gl, scene, &scene->painted.mark_rims, 0, 1);
   paint_lines(painter, gl, scene, &scene->marks, 0, 1);
-  paint_lines(painter, gl, scene, &scene->placed_overlay, 0, 1);
+  paint_lines(painter, gl, scene, &scene->painted.overlay, 0, 1);
   gl->Disable(GL_BLEND);
 }
 
 /* Bounds of the ground, and its lowest height near the casters. */
 static float measure_ground(const draw_scene *scene, const box3 *casters, box3 *ground) {
-  const sbf_vec3 *at = scene->ground_positions.at;
+  const sbf_vec3 *at = scene->ground.positions.at;
   box3 near = box3_empty();
   if (scene->has_floor) {
     box3_add(ground, v3(0, scene->floor_height, 0));
     return scene->floor_height;
   }
   sbf_vec3 reach = v3_scale(v3_sub(casters->max, casters->min), 0.5f);
-  for (size_t i = 0; i < scene->ground_positions.count; i++) {
+  for (size_t i = 0; i < scene->ground.positions.count; i++) {
     box3_add(ground, at[i]);
     if (at[i].x > casters->min.x - reach.x && at[i].x < casters->max.x + reach.x &&
         at[i].z > casters->min.z - reach.z && at[i].z < casters->max.z + reach.z)
@@ -365,7 +367,7 @@ sbf_status draw_painter_paint(
 
   upload_scene(painter, gl, scene, camera->subject, ground_radius);
   uint32_t scale = draw_canvas_bind(painter->canvas);
-  if (scene->sorted_lines.count) { /* before the maps, because it changes their texture units */
+  if (scene->painted.sorted_lines.count) { /* before the maps, because it changes their texture units */
     GLsizei width = (GLsizei)(draw_canvas_width(painter->canvas) * scale);
     GLsizei height = (GLsizei)(draw_canvas_height(painter->canvas) * scale);
     sbf_status status = layers_make(&painter->layers, gl, width, height, diagnostic);
@@ -373,12 +375,13 @@ sbf_status draw_painter_paint(
   }
   /* Objects inside a transparent surface are fully lit. */
   frame_block_fill(&painter->frame, draw_canvas_width(painter->canvas) * scale,
-      draw_canvas_height(painter->canvas) * scale, camera, &maps, ground_radius, scene->veil_count == 0);
+      draw_canvas_height(painter->canvas) * scale, camera, &maps, ground_radius,
+      scene->painted.xray_count == 0);
   gl->BindBuffer(GL_UNIFORM_BUFFER, painter->frame_buffer);
   gl->BufferData(GL_UNIFORM_BUFFER, sizeof painter->frame, &painter->frame, GL_STREAM_DRAW);
   gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, painter->frame_buffer);
   paint_maps(painter, gl, scene, &maps);
-  if (scene->sorted_lines.count) paint_line_layer(painter, gl, scene);
+  if (scene->painted.sorted_lines.count) paint_line_layer(painter, gl, scene);
 
   draw_canvas_bind(painter->canvas);
   gl->Disable(GL_DEPTH_TEST);

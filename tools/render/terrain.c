@@ -87,9 +87,9 @@ void draw_scene_set_terrain(
   add_lines(&grid, 1);
   uint32_t wide = grid.counts[0], deep = grid.counts[1], vertices = wide * deep;
   uint32_t index_count = 6 * (wide - 1) * (deep - 1);
-  sbf_vec3 *at = draw_scene_list_push(scene, &scene->ground_positions, vertices, sizeof *at);
-  sbf_vec3 *normals = draw_scene_list_push(scene, &scene->ground_normals, vertices, sizeof *normals);
-  uint32_t *indices = draw_scene_list_push(scene, &scene->ground_indices, index_count, sizeof *indices);
+  sbf_vec3 *at = draw_scene_list_push(scene, &scene->ground.positions, vertices, sizeof *at);
+  sbf_vec3 *normals = draw_scene_list_push(scene, &scene->ground.normals, vertices, sizeof *normals);
+  uint32_t *indices = draw_scene_list_push(scene, &scene->ground.indices, index_count, sizeof *indices);
   if (!at || !normals || !indices) {
     draw_scene_clear_ground(scene);
     return;

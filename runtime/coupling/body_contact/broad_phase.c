@@ -23,7 +23,7 @@ static sbri_box soft_box(const sbr_world *world, const sbri_character *c, const 
   for (uint32_t slot = island->free_count; body->is_pinned && slot < island->slot_count; slot++)
     box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
   sbf_vec3 size = sbri_sub(box.high, box.low);
-  float margin = 2 * sbri_fastest_of(body, velocities) * (float)world->tick_s * c->time_scale +
+  float margin = 2 * sbri_fastest_of(body, velocities) * (float)world->time.tick_s * c->time_scale +
                  MOTION_FRACTION * body->rest_size_m + body->source->collision.outer_thickness +
                  body->contact.margin_m + body->contact.max_extrapolation * (size.x + size.y + size.z);
   return sbri_box_in_world(sbri_box_grown(box, margin), sbri_header(c)->origin, c->scale);
@@ -35,7 +35,7 @@ static sbri_box rigid_box(const sbr_world *world, const sbri_character *c, uint3
   bool simulated = sbri_rigid_is_simulated(c, b);
   sbr_transform now = simulated ? s->pose : sbri_rigid_target(c, sbri_pose(c), b),
                 before = sbri_rigid_target(c, sbri_previous_pose(c), b);
-  float tick_s = (float)world->tick_s * c->time_scale;
+  float tick_s = (float)world->time.tick_s * c->time_scale;
   float displacement =
       simulated ? sbri_length(s->velocity) * tick_s : sbri_length(sbri_sub(now.position, before.position));
   float margin = body->radius * (1 + MOTION_FRACTION) + 2 * displacement;

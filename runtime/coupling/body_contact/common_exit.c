@@ -226,7 +226,7 @@ static sbf_vec3 cached_exit(const crossing *l, uint32_t cluster) {
 static sbf_vec3 refresh_exit(const crossing *l, uint32_t cluster, sbf_vec3 direction) {
   float distance = cluster_exit_distance(l, cluster, direction, l->max_exit_m);
   if (!(distance < l->max_exit_m)) return find_shortest_exit(l, cluster);
-  sbf_vec3 other = direction_at((uint32_t)(l->f->world->ticks % DIRECTION_COUNT));
+  sbf_vec3 other = direction_at((uint32_t)(l->f->world->time.ticks % DIRECTION_COUNT));
   return cluster_exit_distance(l, cluster, other, SWITCH_FACTOR * distance) < SWITCH_FACTOR * distance
              ? other
              : direction;

@@ -21,8 +21,9 @@ static sbri_box box_of(const sbr_world *world, const sbri_character *c) {
     size = fmaxf(size, base->bodies[b].rest_size_m);
   const sbri_character_state *state = sbri_header(c);
   float target_step =
-      sqrtf(state->forward * state->forward + state->sideways * state->sideways) * (float)world->tick_s;
-  float margin = c->scale * size + fmaxf(displacement, target_step) * (LOOKAHEAD_S / (float)world->tick_s);
+      sqrtf(state->forward * state->forward + state->sideways * state->sideways) * (float)world->time.tick_s;
+  float margin =
+      c->scale * size + fmaxf(displacement, target_step) * (LOOKAHEAD_S / (float)world->time.tick_s);
   box = sbri_box_grown(box, margin + SIZE_FRACTION * c->scale * base->rest_size_m);
   return sbri_box_in_world(box, state->origin, 1);
 }

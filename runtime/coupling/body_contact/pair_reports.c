@@ -100,7 +100,7 @@ static sbr_object object_of(const sbr_world *world, uint64_t body_id) {
 static void report(sbr_world *world, const sbri_pair_report *c, sbri_event_kind kind) {
   if (!world->characters[c->body_ids[0] >> 32].model || !world->characters[c->body_ids[1] >> 32].model)
     return;
-  sbr_contact_event event = {.tick = world->ticks,
+  sbr_contact_event event = {.tick = world->time.ticks,
       .a = object_of(world, c->body_ids[0]),
       .b = object_of(world, c->body_ids[1]),
       .position = c->position,

@@ -52,7 +52,7 @@ static float swung_steps(const sbri_character *c, uint32_t body, float tick_s) {
 }
 
 static float tick_of(const sbri_coupled *group) {
-  return (float)group->world->tick_s * group->character->time_scale;
+  return (float)group->world->time.tick_s * group->character->time_scale;
 }
 
 static void request_steps(sbri_coupled *group, float steps) {

@@ -126,7 +126,7 @@ static float strength_of(const sbri_rigid_drive_state *drive) {
 
 bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
   sbri_rigid_drive_state *drive = c->model->rigid.body_count ? sbri_rigid_drive(c) : NULL;
-  float tick_s = (float)world->tick_s * c->time_scale;
+  float tick_s = (float)world->time.tick_s * c->time_scale;
   if (!drive || drive->posture == SBR_POSTURE_UPRIGHT) return false;
   drive->posture_s += tick_s;
   if (drive->posture == SBR_POSTURE_FALLING) {

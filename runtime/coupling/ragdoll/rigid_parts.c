@@ -39,7 +39,7 @@ static float max_relative_speed(const sbri_character *c) {
  * decay come to rest; a body that slumps or tips accelerates and does not. */
 static bool is_decaying(const sbr_world *world, const sbri_character *c, float fraction) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  float tick_s = (float)world->tick_s * c->time_scale;
+  float tick_s = (float)world->time.tick_s * c->time_scale;
   if (!(fraction <= DAMPING_1_S)) {
     drive->damping_ticks = 0, drive->damped_max = drive->damped_before = 0;
     return false;
@@ -103,7 +103,7 @@ static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
       .origin = sbri_header(c)->origin,
       .scale = c->scale,
       .gravity = world->has_gravity ? world->gravity : c->model->asset->environment.gravity,
-      .tick_s = (float)world->tick_s * c->time_scale,
+      .tick_s = (float)world->time.tick_s * c->time_scale,
       .substeps = c->model->rigid_substeps,
       .coarse = c->model->rigid_coarse,
       .touching = sbri_rigid_touching(c),

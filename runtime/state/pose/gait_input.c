@@ -31,7 +31,7 @@ sbri_gait_input sbri_gait_input_of(
       .up = up ? head->up : 0,
       .displacement = head->displacement,
       .rotation = head->rotation,
-      .tick_s = (float)world->tick_s,
+      .tick_s = (float)world->time.tick_s,
       .scale = c->scale,
       .keeps_rest_pose = c->hold,
       .origin = head->origin,

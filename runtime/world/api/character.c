@@ -21,12 +21,12 @@ static bool reserve_work(sbr_world *world, size_t more) {
   size_t needed = more;
   for (uint32_t i = 0; i < world->character_capacity; i++)
     needed += world->characters[i].model ? world->characters[i].model->detail.base->detail.max_islands : 0;
-  if (needed <= world->work_capacity) return true;
+  if (needed <= world->work.capacity) return true;
   sbri_work *grown = world->allocator.reallocate(
-      world->allocator.user, world->work, world->work_capacity * sizeof *grown, needed * sizeof *grown);
+      world->allocator.user, world->work.at, world->work.capacity * sizeof *grown, needed * sizeof *grown);
   if (!grown) return false;
-  world->work = grown;
-  world->work_capacity = needed;
+  world->work.at = grown;
+  world->work.capacity = needed;
   return true;
 }
 
@@ -79,7 +79,7 @@ static void set_initial_position(
   sbri_restore_elements(c);
   sbri_character_reset_to_rest(c);
   sbri_work_list(world);
-  world->stamp++;
+  world->time.stamp++;
 }
 
 sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
@@ -215,7 +215,7 @@ void sbr_character_teleport(
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_move_with_frames(c, i);
   sbri_character_stop(c);
-  world->stamp++;
+  world->time.stamp++;
 }
 
 void sbr_character_reset(sbr_world *world, sbr_character_id character) {
@@ -236,7 +236,7 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbri_fade_end(c);
   sbri_restore_elements(c);
   sbri_character_reset_to_rest(c);
-  world->stamp++;
+  world->time.stamp++;
 }
 
 void sbr_character_wake(sbr_world *world, sbr_character_id character) {

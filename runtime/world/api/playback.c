@@ -30,11 +30,11 @@ static int32_t index_of(double value) {
 
 static void check(sbr_replay *r, const double *n) {
   uint64_t hash = (uint64_t)whole(n[1]) << 32 | whole(n[2]);
-  bool same = hash == sbr_world_get_state_hash(r->world) && (double)r->world->ticks == n[0];
+  bool same = hash == sbr_world_get_state_hash(r->world) && (double)r->world->time.ticks == n[0];
   r->checks++;
   if (same || r->differs) return;
   r->differs = true;
-  r->differs_at_tick = r->world->ticks;
+  r->differs_at_tick = r->world->time.ticks;
 }
 
 static void play_view(sbr_world *world, const double *n) {
@@ -106,7 +106,7 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
     sbr_world_step(r->world, n[0]);
     break;
   case SBRI_RECORDED_TICK:
-    r->frame_s = r->world->tick_s;
+    r->frame_s = r->world->time.tick_s;
     sbr_world_tick(r->world);
     break;
   case SBRI_RECORDED_DESTROY:

@@ -12,7 +12,7 @@ static bool has_body(const sbri_character *c, int32_t body) {
 
 /* Moves the bodies of a character without simulated bodies to the pose, with its velocities. */
 static void move_bodies_to_pose(const sbr_world *world, sbri_character *c) {
-  float rate = 1 / ((float)world->tick_s * c->time_scale);
+  float rate = 1 / ((float)world->time.tick_s * c->time_scale);
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     sbr_transform before = sbri_rigid_target(c, sbri_previous_pose(c), b),

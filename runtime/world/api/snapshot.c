@@ -37,7 +37,7 @@ static uint64_t count_characters(const sbr_world *world) {
 
 sbf_status sbr_world_save_snapshot(const sbr_world *world, void *bytes, size_t size) {
   if (!world || !bytes || size != sbr_world_get_snapshot_size(world)) return SBF_FAILED;
-  snapshot_header head = {MAGIC, size, world->ticks, count_characters(world), world->ahead_units};
+  snapshot_header head = {MAGIC, size, world->time.ticks, count_characters(world), world->time.ahead_units};
   unsigned char *to = bytes;
   memcpy(to, &head, sizeof head);
   to += sizeof head;
@@ -98,9 +98,9 @@ sbf_status sbr_world_restore_snapshot(sbr_world *world, const void *bytes, size_
   const unsigned char *from = bytes;
   snapshot_header head;
   memcpy(&head, from, sizeof head);
-  world->ticks = head.ticks;
-  world->ahead_units = head.ahead_units;
-  world->stamp++;
+  world->time.ticks = head.ticks;
+  world->time.ahead_units = head.ahead_units;
+  world->time.stamp++;
   from += sizeof head;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     sbri_character *c = &world->characters[i];
@@ -136,7 +136,7 @@ uint64_t sbr_world_get_state_hash(const sbr_world *world) {
   sbfi_hash64 hash;
   sbfi_hash64_init(&hash);
   if (!world) return 0;
-  sbfi_hash64_add_u64(&hash, &world->ticks, 1);
+  sbfi_hash64_add_u64(&hash, &world->time.ticks, 1);
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbri_character *c = &world->characters[i];
     if (!c->model) continue;

@@ -83,12 +83,12 @@ sbf_status sbr_world_create(
       .ground = definition->ground.height ? definition->ground : sbr_ground_flat(0),
       .has_gravity = definition->has_gravity,
       .gravity = definition->gravity,
-      .tick_s = tick,
-      .tick_units = units_of(tick),
-      .longest_units = units_of(longest),
+      .time.tick_s = tick,
+      .time.tick_units = units_of(tick),
+      .time.longest_units = units_of(longest),
       .sleep_ticks =
           definition->sleep_after_s > 0 ? 1 + (uint32_t)(fmin(definition->sleep_after_s, 1e6) / tick) : 0,
-      .stamp = 1,
+      .time.stamp = 1,
       .colliders = set,
       .events = lists,
       .hit_speed = definition->hit_speed,
@@ -109,7 +109,7 @@ void sbr_world_destroy(sbr_world *world) {
   sbri_events_free(&world->events, &allocator);
   sbri_body_contacts_free(world);
   sbri_detail_free(world);
-  sbfi_free(&allocator, world->work, world->work_capacity * sizeof *world->work);
+  sbfi_free(&allocator, world->work.at, world->work.capacity * sizeof *world->work.at);
   sbfi_free(&allocator, world->characters, world->character_capacity * sizeof *world->characters);
   sbfi_free(&allocator, world, sizeof *world);
 }
@@ -128,13 +128,13 @@ void sbr_world_step(sbr_world *world, double seconds) {
   if (!(seconds > 0) || !sbri_usable(&seconds, 1)) return;
   if (seconds > LONGEST_S) seconds = LONGEST_S;
   sbri_record(world, SBRI_RECORDED_STEP, &seconds);
-  double longest = (double)world->longest_units / SBRI_TIME_UNITS;
-  world->ahead_units -= units_of(seconds < longest ? seconds : longest);
-  while (world->ahead_units < -SBRI_TIME_SLACK) {
+  double longest = (double)world->time.longest_units / SBRI_TIME_UNITS;
+  world->time.ahead_units -= units_of(seconds < longest ? seconds : longest);
+  while (world->time.ahead_units < -SBRI_TIME_SLACK) {
     sbri_step_tick(world);
-    world->ahead_units += world->tick_units;
+    world->time.ahead_units += world->time.tick_units;
   }
-  world->stamp++;
+  world->time.stamp++;
   sbri_record_hash(world);
 }
 
@@ -143,12 +143,12 @@ void sbr_world_tick(sbr_world *world) {
   sbri_events_clear(&world->events);
   sbri_record(world, SBRI_RECORDED_TICK, NULL);
   sbri_step_tick(world);
-  world->stamp++;
+  world->time.stamp++;
   sbri_record_hash(world);
 }
 
 uint64_t sbr_world_get_tick_count(const sbr_world *world) {
-  return world ? world->ticks : 0;
+  return world ? world->time.ticks : 0;
 }
 
 uint32_t sbr_world_count_awake_bodies(const sbr_world *world) {

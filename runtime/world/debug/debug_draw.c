@@ -189,7 +189,7 @@ static void draw_character(const sbr_world *world, const sbri_character *c, cons
   if (draw->parts & SBR_DRAW_GAIT) draw_gait(c, &metres);
   if (draw->parts & SBR_DRAW_RIGID_BODIES) sbri_draw_rigid_bodies(c, &asset);
   if (draw->parts & SBR_DRAW_JOINTS) sbri_draw_joints(c, axis_length(c), &asset);
-  if (draw->parts & SBR_DRAW_CONTACTS) sbri_draw_rigid_contacts(c, world->tick_s, &asset);
+  if (draw->parts & SBR_DRAW_CONTACTS) sbri_draw_rigid_contacts(c, world->time.tick_s, &asset);
 }
 
 void sbr_world_draw(const sbr_world *world, const sbr_debug_draw *draw) {

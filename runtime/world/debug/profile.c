@@ -11,12 +11,12 @@ const char *sbr_stage_get_name(sbr_stage stage) {
 
 void sbr_world_set_clock(sbr_world *world, sbr_clock clock) {
   if (!world) return;
-  world->clock = clock;
-  memset(&world->profile, 0, sizeof world->profile);
+  world->timing.clock = clock;
+  memset(&world->timing.profile, 0, sizeof world->timing.profile);
 }
 
 sbr_profile sbr_world_get_profile(const sbr_world *world) {
-  return world ? world->profile : (sbr_profile){0};
+  return world ? world->timing.profile : (sbr_profile){0};
 }
 
 static void add_island(const sbri_character *c, uint32_t index, sbr_counters *to) {

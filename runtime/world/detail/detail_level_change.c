@@ -192,7 +192,7 @@ static void copy_soft_bodies(
 
 /* Switches to the spare storage; the old state is unchanged and becomes the spare one. */
 static void switch_storage(const sbr_world *world, sbri_character *c) {
-  float tick_s = (float)world->tick_s * c->time_scale;
+  float tick_s = (float)world->time.tick_s * c->time_scale;
   bool was_soft = sbri_get_detail_level(c)->kind == SBR_DETAIL_SOFT;
   for (uint32_t b = 0; was_soft && b < c->model->asset->soft_bodies.count; b++)
     sbri_energies(c)[b] = elastic_of(world, c, b);
@@ -238,7 +238,8 @@ static bool has_visible_jump(
   float a_metre = sbri_pixels_of(world, c) * c->scale, lags = a_metre * lags_m(world, c);
   float shows = lags + a_metre * swings_m * (swings_on ? JUMPS_FRACTION : 1);
   float max_s = lags > detail->is.error_px ? LAGS_MAX_S : SWINGS_MAX_S;
-  return shows > detail->is.error_px && !(finer && (float)head->swing_ticks++ * (float)world->tick_s > max_s);
+  return shows > detail->is.error_px &&
+         !(finer && (float)head->swing_ticks++ * (float)world->time.tick_s > max_s);
 }
 
 /* The requested level, or the nearest possible one. */

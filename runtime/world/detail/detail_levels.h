@@ -21,7 +21,7 @@ static inline uint32_t sbri_coarsest_colliding_level(const sbr_model *base) {
 }
 
 static inline uint32_t sbri_ticks_of(const sbr_world *world, float seconds) {
-  float ticks = seconds / (float)world->tick_s;
+  float ticks = seconds / (float)world->time.tick_s;
   return !(ticks > 0) ? 0 : ticks < 1e9f ? (uint32_t)ticks : 1000000000u;
 }
 

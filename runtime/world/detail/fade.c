@@ -47,7 +47,7 @@ static sbf_vec3 of_point(const sbri_point *p) {
 }
 
 static float phase_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
-  float turn = c->model->detail.base->detail.swing_rad_s[body] * (float)world->tick_s * c->time_scale;
+  float turn = c->model->detail.base->detail.swing_rad_s[body] * (float)world->time.tick_s * c->time_scale;
   return turn < MAX_TURN_RAD ? turn : MAX_TURN_RAD;
 }
 
@@ -196,7 +196,7 @@ void sbri_fade_begin(const sbr_world *world, sbri_character *c) {
   sbri_character_state *head = sbri_header(c);
   const sbr_model *base = c->model->detail.base;
   uint32_t meshes = base->asset->render_meshes.count;
-  float off = 0, swings = 0, slowest = INFINITY, tick_s = (float)world->tick_s;
+  float off = 0, swings = 0, slowest = INFINITY, tick_s = (float)world->time.tick_s;
   for (uint32_t m = 0; m < meshes && !bones_of(c); m++) subtract(c, m);
   for (uint32_t v = 0; v < first_vertex(c, meshes); v++) {
     const sbri_fading_vertex *g = &sbri_faded(c)[v];

@@ -8,15 +8,15 @@
 #include "world/detail/detail_levels.h"
 
 static float tick_fraction(const sbr_world *world) {
-  if (world->ahead_units <= 0) return 1;
-  return (float)(1.0 - (double)world->ahead_units / (double)world->tick_units);
+  if (world->time.ahead_units <= 0) return 1;
+  return (float)(1.0 - (double)world->time.ahead_units / (double)world->time.tick_units);
 }
 
 /* Interpolates the last two ticks' points and frames into scratch, once per sampled time. The scratch of
  * deltas is that of the tick, which computes them anew. */
 static void sample(const sbr_world *world, sbri_character *c) {
-  if (c->sampled_at == world->stamp) return;
-  c->sampled_at = world->stamp;
+  if (c->sampled_at == world->time.stamp) return;
+  c->sampled_at = world->time.stamp;
   const sbr_model *model = c->model;
   float t = tick_fraction(world);
   const sbri_point *from = sbri_previous_positions(c), *to = sbri_positions(c);

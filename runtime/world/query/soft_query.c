@@ -26,7 +26,7 @@ sbf_vec3 sbr_character_get_hold_force(
   for (uint32_t i = 0; c && i < SBR_LOAD_CAPACITY; i++) {
     const sbri_load *load = &sbri_loads(c)[i];
     if (load->kind != SBRI_LOAD_HOLD || load->body != soft_body || load->vertex != vertex) continue;
-    float fraction = 1 / (sbri_own_impulse(c) * (float)world->tick_s);
+    float fraction = 1 / (sbri_own_impulse(c) * (float)world->time.tick_s);
     return sbri_scale((sbf_vec3){load->impulse[0], load->impulse[1], load->impulse[2]}, fraction);
   }
   return (sbf_vec3){0, 0, 0};
