@@ -186,7 +186,7 @@ START_TEST(sections_that_touch_at_rest_hang_together)
     scene_section(
         &s, b, (sbf_vec3){0, 0, 0.199f * (float)b + (b == 2 ? 0.02f : 0)}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 3);
   start(&s);
-  const uint8_t *together = s.world->body_contacts->rest_relations[0];
+  const uint8_t *together = s.world->body_contacts->shapes.rest_relations[0];
   ck_assert_uint_eq(together[1], 1);
   ck_assert_uint_eq(together[3], 1);
   ck_assert_uint_eq(together[2], 0);

@@ -42,12 +42,12 @@ static bool are_same(const sbri_cached_contact *m, const sbri_contact *t) {
 /* Steps a tick. The contacts cached before are then in `next_cached`. */
 static void advance(scene *s, tally of[KINDS]) {
   const sbri_body_contacts *all = s->world->body_contacts;
-  uint32_t before = all->cached_count;
+  uint32_t before = all->cache.count;
   scene_ticks(s, 1);
   for (uint32_t i = 0; i < all->groups[0].contact_count; i++) {
     const sbri_contact *t = &all->contacts[all->groups[0].first_contact + i];
     bool again = false;
-    for (uint32_t k = 0; k < before; k++) again = again || are_same(&all->next_cached[k], t);
+    for (uint32_t k = 0; k < before; k++) again = again || are_same(&all->cache.next[k], t);
     of[kind_of(t)].again += again;
     of[kind_of(t)].known += again && !t->is_new;
   }
@@ -94,8 +94,8 @@ START_TEST(cached_contacts_follow_by_body_ids)
   unsigned char *bytes = calloc(1, sbri_contact_cache_size(s.world));
   ck_assert(bytes != NULL);
   for (uint32_t i = 0; i < 9; i++)
-    all->cached[i] = (sbri_cached_contact){.body_ids = {names[lie[i]][0], names[lie[i]][1]}, .feature = i};
-  all->cached_count = 9;
+    all->cache.at[i] = (sbri_cached_contact){.body_ids = {names[lie[i]][0], names[lie[i]][1]}, .feature = i};
+  all->cache.count = 9;
   sbri_contact_cache_save(s.world, bytes);
   sbri_contact_cache_restore(s.world, bytes);
   for (uint32_t k = 0; k < 4; k++) {

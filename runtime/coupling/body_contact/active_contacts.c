@@ -103,7 +103,8 @@ static double find_changes(sbri_contact_constraint *rows, uint32_t count) {
 
 static void begin(sbri_contact_constraint *r, sbf_vec3 velocity_error) {
   sbri_active_contact *active = &r->active;
-  sbf_vec3 friction = sbri_four_xyz(sbri_four_add_scaled(r->impulse, r->wide_normal, -r->normal_impulse));
+  sbf_vec3 friction =
+      sbri_four_xyz(sbri_four_add_scaled(r->wide.impulse, r->wide.normal, -r->normal_impulse));
   float max_friction = SLIDING_FRACTION * r->friction * r->normal_impulse;
   active->is_pressing = r->is_active && r->normal_impulse > 0;
   active->is_sticking = sbri_dot(friction, friction) < max_friction * max_friction;

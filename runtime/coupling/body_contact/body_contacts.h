@@ -89,6 +89,19 @@ typedef struct sbri_contact_side {
   uint32_t external;       /* 1 + index of the external body that moves the plane; 0: none */
 } sbri_contact_side;
 
+/* Sticking of a contact since it began. */
+typedef struct sbri_contact_sticking {
+  sbf_vec3 slip;       /* tangential slip of a against b, m */
+  sbf_vec3 separation; /* offset of a from b when sticking began, m */
+} sbri_contact_sticking;
+
+/* Sums over a tick, for events. */
+typedef struct sbri_contact_tick_sums {
+  float impulse;           /* N s along the normal */
+  float max_closing_speed; /* m/s */
+  sbf_vec3 position;       /* of the last impulse */
+} sbri_contact_tick_sums;
+
 typedef struct sbri_contact {
   sbri_contact_side a, b;
   uint64_t body_ids[2]; /* sbri_contact_body_id of both; the feature tells contacts of a pair apart */
@@ -97,8 +110,7 @@ typedef struct sbri_contact {
   float margin;    /* separation to keep, m */
   float friction, restitution;
   /* Kept from step to step: */
-  sbf_vec3 tangent_slip;     /* tangential slip of a against b since they stick, m */
-  sbf_vec3 stick_separation; /* offset of a from b when sticking began, m */
+  sbri_contact_sticking sticking;
   float soft_size_m;         /* size of the smaller soft body, m; 0: both are rigid */
   float external_bias;       /* normal velocity that springs and joints add in a step, m/s */
   float solved_speed;        /* normal velocity after the last solve, m/s */
@@ -111,10 +123,7 @@ typedef struct sbri_contact {
                          (nearest_exit.c) */
   bool exits_common;  /* leaves by the common exit of its cluster (common_exit.c) */
   bool is_new;        /* not in the cache of the previous tick */
-  /* For events, over the whole tick: */
-  float tick_impulse;      /* N s along the normal */
-  float max_closing_speed; /* m/s */
-  sbf_vec3 event_position; /* of the last impulse */
+  sbri_contact_tick_sums tick;
 } sbri_contact;
 
 /* A loaded contact of the previous tick: start values for the solver. State, part of snapshots and of the
@@ -173,6 +182,15 @@ typedef struct sbri_active_contact {
   double step[3];                 /* change of the impulse that all steps ask for, N s */
 } sbri_active_contact;
 
+/* Values of a contact in the lanes of the iterations. */
+typedef struct sbri_wide_constraint {
+  sbri_four impulse, initial_impulse;        /* normal + friction impulse, N s; its start value */
+  sbri_four normal, target;                  /* normal; target velocity without the prescribed part */
+  sbri_four mass_columns[3];                 /* columns of `effective_mass` */
+  sbri_four lever_arms[2], permuted_arms[2]; /* of both bodies; `permuted`: yzx order */
+  sbri_solver_body *bodies[2];               /* a fixed body where a side has none */
+} sbri_wide_constraint;
+
 /* A contact during a solve. */
 typedef struct sbri_contact_constraint {
   sbri_contact *contact;
@@ -189,13 +207,9 @@ typedef struct sbri_contact_constraint {
   bool is_active;             /* takes part in the solve */
   sbri_constraint_side a, b;
   /* Only during the solve: */
-  sbri_four impulse, initial_impulse;        /* normal + friction impulse, N s; its start value */
-  sbri_four wide_normal, wide_target;        /* normal; target velocity without the prescribed part */
-  sbri_four mass_columns[3];                 /* columns of `effective_mass` */
-  sbri_four lever_arms[2], permuted_arms[2]; /* of both bodies; `permuted`: yzx order */
-  sbri_solver_body *bodies[2];               /* a fixed body where a side has none */
-  float inverse_mass_squared;                /* square of the inverse normal mass, 1/kg^2 */
-  float compliance;                          /* 1/kg */
+  sbri_wide_constraint wide;
+  float inverse_mass_squared; /* square of the inverse normal mass, 1/kg^2 */
+  float compliance;           /* 1/kg */
   sbri_active_contact active;
   sbri_four search_direction, change; /* conjugate direction and last change of the impulse, N s */
 } sbri_contact_constraint;
@@ -216,37 +230,53 @@ typedef enum sbri_rest_relation {
   SBRI_REST_TOUCHING
 } sbri_rest_relation;
 
+/* Contact surfaces of each character, (character_capacity) each. */
+typedef struct sbri_contact_shapes {
+  sbri_contact_surface **surfaces;       /* of soft bodies at the current detail level; NULL: none */
+  sbri_contact_surface **level_surfaces; /* of soft bodies at all soft levels, level after level */
+  sbri_contact_surface **hulls;          /* of rigid bodies */
+  uint8_t **rest_relations; /* sbri_rest_relation of each two soft bodies, then of each soft and rigid body */
+} sbri_contact_shapes;
+
+/* Bodies of all characters that can collide in this tick. */
+typedef struct sbri_broad_phase {
+  sbri_contact_body *bodies; /* (body_capacity) */
+  sbri_box *boxes;           /* (body_capacity) swept bounds */
+  sbri_bounds_tree tree;
+  uint32_t body_count, body_capacity;
+} sbri_broad_phase;
+
+/* Loaded contacts of the previous tick and of this one; state. */
+typedef struct sbri_contact_cache {
+  sbri_cached_contact *at, *next; /* (contact_capacity) of the previous tick; of this tick */
+  uint32_t count;
+  uint32_t *table; /* (table_capacity, a power of two) hash table by body ids: first cached contact, or
+                      UINT32_MAX */
+  uint32_t table_capacity;
+} sbri_contact_cache;
+
+/* Pairs of bodies in contact, for events; output, not state. */
+typedef struct sbri_pair_reports {
+  sbri_pair_report *at, *next; /* (contact_capacity) of the previous tick; of this tick; sorted by body ids */
+  uint32_t count;
+} sbri_pair_reports;
+
 typedef struct sbri_body_contacts {
   sbfi_arena *arenas; /* (character_capacity) */
-  sbri_contact_surface *
-      *surfaces; /* (character_capacity) of its soft bodies at its current detail level; NULL: none */
-  sbri_contact_surface *
-      *level_surfaces; /* (character_capacity) of its soft bodies at all soft levels, level after level */
-  sbri_contact_surface **hulls; /* (character_capacity) of its rigid bodies */
-  uint8_t **rest_relations;   /* (character_capacity) sbri_rest_relation of each two soft bodies, then of each
-                                 soft and rigid body */
+  sbri_contact_shapes shapes;
   uint32_t *group_of;         /* (character_capacity) UINT32_MAX: in no group */
   uint32_t *member_of;        /* (character_capacity) index in its group */
   uint32_t *next_of_group;    /* (character_capacity) linked list while groups are built; UINT32_MAX: last */
   sbri_group_member *members; /* (character_capacity) group after group */
   sbri_contact_group *groups; /* (character_capacity) */
   uint32_t group_count;
-  sbri_contact_body *bodies; /* (body_capacity) */
-  sbri_box *boxes;           /* (body_capacity) swept bounds */
-  sbri_bounds_tree tree;
-  uint32_t body_count, body_capacity;
+  sbri_broad_phase broad_phase;
   sbri_contact_pair *pairs, *found_pairs; /* (contact_capacity) sorted by group; as found */
   uint32_t pair_count;
   sbri_contact *contacts;               /* (contact_capacity) */
   sbri_contact_constraint *constraints; /* (contact_capacity) */
-  /* (contact_capacity) of the previous and of this tick; state */
-  sbri_cached_contact *cached, *next_cached;
-  uint32_t cached_count;
-  uint32_t *cache_table; /* (table_capacity, a power of two) hash table by body ids: first cached contact, or
-                            UINT32_MAX */
-  uint32_t table_capacity;
-  sbri_pair_report *touching, *next_touching; /* (contact_capacity) sorted by body ids; output, not state */
-  uint32_t touching_count;
+  sbri_contact_cache cache;
+  sbri_pair_reports pair_reports;
   sbri_solver_body *solver_bodies; /* (body_capacity x SBRI_SOLVER_BODIES_PER_BODY) sorted by group */
   uint32_t contact_capacity, character_capacity;
 } sbri_body_contacts;

@@ -44,8 +44,8 @@ static sbri_box rigid_box(const sbr_world *world, const sbri_character *c, uint3
 }
 
 static void add(sbri_body_contacts *all, sbri_contact_body body, sbri_box box) {
-  all->boxes[all->body_count] = box;
-  all->bodies[all->body_count++] = body;
+  all->broad_phase.boxes[all->broad_phase.body_count] = box;
+  all->broad_phase.bodies[all->broad_phase.body_count++] = body;
 }
 
 static void list_character(sbr_world *world, uint32_t index) {
@@ -96,9 +96,9 @@ static bool are_connected(const sbr_world *world, const sbri_contact_body *a, co
   const sbr_model *model = world->characters[a->character].model;
   if (a->rigid && b->rigid) return are_jointed(&model->rigid, a->body_index, b->body_index);
   if (!a->rigid && !b->rigid)
-    return world->body_contacts
-               ->rest_relations[a->character][(size_t)a->body_index * model->asset->soft_bodies.count +
-                                              b->body_index] == SBRI_REST_ADJACENT;
+    return world->body_contacts->shapes
+               .rest_relations[a->character][(size_t)a->body_index * model->asset->soft_bodies.count +
+                                             b->body_index] == SBRI_REST_ADJACENT;
   const sbri_contact_body *soft = a->rigid ? b : a, *rigid = a->rigid ? a : b;
   const sbri_island *island = &model->islands[model->bodies[soft->body_index].island];
   for (uint32_t i = 0; i < island->pins.carrier_count; i++)
@@ -114,14 +114,15 @@ static bool may_collide(const sbr_world *world, const sbri_contact_body *a, cons
 
 static void find_pairs(sbr_world *world) {
   sbri_body_contacts *all = world->body_contacts;
-  sbri_bounds_tree_make(&all->tree, all->boxes, all->body_count);
-  for (uint32_t a = 0; a < all->body_count; a++) {
+  sbri_bounds_tree_make(&all->broad_phase.tree, all->broad_phase.boxes, all->broad_phase.body_count);
+  for (uint32_t a = 0; a < all->broad_phase.body_count; a++) {
     sbri_bounds_walk walk;
     uint32_t b;
-    sbri_bounds_walk_begin(&walk, &all->tree, all->boxes[a]);
+    sbri_bounds_walk_begin(&walk, &all->broad_phase.tree, all->broad_phase.boxes[a]);
     while (sbri_bounds_walk_next(&walk, &b)) {
-      if (b < a || !sbri_boxes_overlap(&all->boxes[a], &all->boxes[b]) ||
-          !(a == b ? all->bodies[a].self_contact : may_collide(world, &all->bodies[a], &all->bodies[b])))
+      if (b < a || !sbri_boxes_overlap(&all->broad_phase.boxes[a], &all->broad_phase.boxes[b]) ||
+          !(a == b ? all->broad_phase.bodies[a].self_contact
+                   : may_collide(world, &all->broad_phase.bodies[a], &all->broad_phase.bodies[b])))
         continue;
       if (all->pair_count < all->contact_capacity)
         all->found_pairs[all->pair_count++] = (sbri_contact_pair){a, b};
@@ -152,7 +153,7 @@ static void wake_for_tick(sbri_character *c) {
 }
 
 static uint32_t group_of_pair(const sbri_body_contacts *all, const sbri_contact_pair *pair) {
-  return all->group_of[all->bodies[pair->a].character];
+  return all->group_of[all->broad_phase.bodies[pair->a].character];
 }
 
 /* Counting sort of the pairs by group; stable within a group. */
@@ -218,8 +219,8 @@ static void make_groups(sbr_world *world) {
   sbri_body_contacts *all = world->body_contacts;
   uint32_t *group_of = all->group_of, filled = 0, solver_bodies = 0;
   for (uint32_t i = 0; i < all->pair_count;) {
-    uint32_t number = group_of[all->bodies[all->pairs[i].a].character] & ~STEPS_ALONG, first = i;
-    while (i < all->pair_count && group_of[all->bodies[all->pairs[i].a].character] == number) i++;
+    uint32_t number = group_of[all->broad_phase.bodies[all->pairs[i].a].character] & ~STEPS_ALONG, first = i;
+    while (i < all->pair_count && group_of[all->broad_phase.bodies[all->pairs[i].a].character] == number) i++;
     sbri_contact_group *group = &all->groups[all->group_count];
     *group = (sbri_contact_group){.first_pair = first, .pair_count = i - first, .first_member = filled};
     if (!add_members(world, group, number)) continue; /* all are asleep */
@@ -237,7 +238,7 @@ static void make_groups(sbr_world *world) {
 void sbri_broad_phase_update(sbr_world *world) {
   sbri_body_contacts *all = world->body_contacts;
   uint32_t *group_of = all->group_of;
-  all->body_count = all->pair_count = all->group_count = 0;
+  all->broad_phase.body_count = all->pair_count = all->group_count = 0;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     group_of[i] = i;
     if (world->characters[i].model)
@@ -246,8 +247,8 @@ void sbri_broad_phase_update(sbr_world *world) {
   }
   find_pairs(world);
   for (uint32_t i = 0; i < all->pair_count; i++) {
-    uint32_t a = root_of(group_of, all->bodies[all->found_pairs[i].a].character),
-             b = root_of(group_of, all->bodies[all->found_pairs[i].b].character);
+    uint32_t a = root_of(group_of, all->broad_phase.bodies[all->found_pairs[i].a].character),
+             b = root_of(group_of, all->broad_phase.bodies[all->found_pairs[i].b].character);
     group_of[a > b ? a : b] = a > b ? b : a;
   }
   for (uint32_t i = 0; i < world->character_capacity; i++) group_of[i] = root_of(group_of, i);

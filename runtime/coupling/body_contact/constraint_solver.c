@@ -56,22 +56,22 @@ static void find_angular_response(sbri_constraint_side *finish_rigid) {
 
 static void prepare_side(sbri_contact_constraint *r, int tangent_error, sbri_constraint_side *finish_rigid,
     sbri_solver_body *fixed_body) {
-  r->bodies[tangent_error] = finish_rigid->body ? finish_rigid->body : fixed_body;
-  r->lever_arms[tangent_error] =
+  r->wide.bodies[tangent_error] = finish_rigid->body ? finish_rigid->body : fixed_body;
+  r->wide.lever_arms[tangent_error] =
       sbri_four_of(finish_rigid->body ? finish_rigid->lever_arm : sbri_vec3(0, 0, 0));
   if (finish_rigid->body) find_angular_response(finish_rigid);
-  r->permuted_arms[tangent_error] = sbri_four_yzx(r->lever_arms[tangent_error]);
+  r->wide.permuted_arms[tangent_error] = sbri_four_yzx(r->wide.lever_arms[tangent_error]);
 }
 
 static void prepare_rigid(sbri_contact_constraint *r, sbri_solver_body *fixed_body) {
   const float *b = r->effective_mass;
-  r->wide_normal = sbri_four_of(r->normal);
-  r->initial_impulse = r->impulse;
-  r->wide_target = sbri_four_of(
+  r->wide.normal = sbri_four_of(r->normal);
+  r->wide.initial_impulse = r->wide.impulse;
+  r->wide.target = sbri_four_of(
       sbri_sub(r->target_velocity, sbri_sub(r->a.prescribed_velocity, r->b.prescribed_velocity)));
-  r->mass_columns[0] = sbri_four_of(sbri_vec3(b[0], b[3], b[4]));
-  r->mass_columns[1] = sbri_four_of(sbri_vec3(b[3], b[1], b[5]));
-  r->mass_columns[2] = sbri_four_of(sbri_vec3(b[4], b[5], b[2]));
+  r->wide.mass_columns[0] = sbri_four_of(sbri_vec3(b[0], b[3], b[4]));
+  r->wide.mass_columns[1] = sbri_four_of(sbri_vec3(b[3], b[1], b[5]));
+  r->wide.mass_columns[2] = sbri_four_of(sbri_vec3(b[4], b[5], b[2]));
   prepare_side(r, 0, &r->a, fixed_body);
   prepare_side(r, 1, &r->b, fixed_body);
   r->compliance = r->normal_mass > 0 ? RIGID_COMPLIANCE / r->normal_mass : 0;
@@ -87,8 +87,9 @@ static void add_impulse(const sbri_constraint_side *finish_rigid, sbf_vec3 impul
 
 static void finish_rigid(sbri_contact_constraint *r) {
   if (!r->is_active) return;
-  sbf_vec3 change = sbri_four_xyz(sbri_four_sub(r->impulse, r->initial_impulse));
-  r->friction_impulse = sbri_four_xyz(sbri_four_add_scaled(r->impulse, r->wide_normal, -r->normal_impulse));
+  sbf_vec3 change = sbri_four_xyz(sbri_four_sub(r->wide.impulse, r->wide.initial_impulse));
+  r->friction_impulse =
+      sbri_four_xyz(sbri_four_add_scaled(r->wide.impulse, r->wide.normal, -r->normal_impulse));
   add_impulse(&r->a, change);
   add_impulse(&r->b, sbri_scale(change, -1));
 }
@@ -103,8 +104,9 @@ static void apply_rigid_impulse(const sbri_constraint_side *finish_rigid, sbri_s
 
 /* Applies the difference to both bodies. Returns the square of the velocity change. */
 static float set_rigid_impulse(sbri_contact_constraint *r, float normal_impulse, sbri_four impulse) {
-  sbri_four change = sbri_four_sub(impulse, r->impulse), reaction = sbri_four_sub(r->impulse, impulse);
-  r->normal_impulse = normal_impulse, r->impulse = impulse;
+  sbri_four change = sbri_four_sub(impulse, r->wide.impulse),
+            reaction = sbri_four_sub(r->wide.impulse, impulse);
+  r->normal_impulse = normal_impulse, r->wide.impulse = impulse;
   if (r->a.body) apply_rigid_impulse(&r->a, r->a.body, change);
   if (r->b.body) apply_rigid_impulse(&r->b, r->b.body, reaction);
   return sbri_four_dot(change, change) * r->inverse_mass_squared;
@@ -119,7 +121,8 @@ static sbri_four clamp_friction(
 
 /* A sliding or separating contact. */
 static float slide(sbri_contact_constraint *r, sbri_four error, float normal_error, float normal_impulse) {
-  sbri_four n = r->wide_normal, friction_impulse = sbri_four_add_scaled(r->impulse, n, -r->normal_impulse);
+  sbri_four n = r->wide.normal,
+            friction_impulse = sbri_four_add_scaled(r->wide.impulse, n, -r->normal_impulse);
   if (!(normal_impulse > 0)) normal_impulse = 0;
   sbri_four tangent_error = sbri_four_add_scaled(error, n, -normal_error);
   float slip = sbri_four_dot(tangent_error, tangent_error);
@@ -132,11 +135,11 @@ static float slide(sbri_contact_constraint *r, sbri_four error, float normal_err
 
 /* Returns the square of the velocity change. */
 static float correct_rigid(sbri_contact_constraint *r) {
-  sbri_four n = r->wide_normal, error = sbri_rigid_velocity_error(r);
+  sbri_four n = r->wide.normal, error = sbri_rigid_velocity_error(r);
   float normal_error = sbri_four_dot(n, error),
         normal_impulse = r->normal_impulse + r->normal_mass * normal_error;
   if (!(normal_impulse > 0) && r->normal_impulse == 0) return 0;
-  sbri_four sticking = sbri_four_add(r->impulse, sbri_four_times(r->mass_columns, error));
+  sbri_four sticking = sbri_four_add(r->wide.impulse, sbri_four_times(r->wide.mass_columns, error));
   float normal_part = sbri_four_dot(sticking, n), max_value = r->friction * normal_part;
   sbri_four friction_impulse = sbri_four_add_scaled(sticking, n, -normal_part);
   if (!(normal_part > 0 && sbri_four_dot(friction_impulse, friction_impulse) <= max_value * max_value))
@@ -160,12 +163,12 @@ static void advance(sbri_contact_constraint *r, float fraction) {
   const double *step = r->active.step;
   sbri_four p = sbri_four_add_scaled(
       r->search_direction, sbri_four_of(sbri_vec3((float)step[0], (float)step[1], (float)step[2])), fraction);
-  float normal_impulse = sbri_four_dot(p, r->wide_normal);
-  sbri_four friction_impulse = sbri_four_add_scaled(p, r->wide_normal, -normal_impulse);
+  float normal_impulse = sbri_four_dot(p, r->wide.normal);
+  sbri_four friction_impulse = sbri_four_add_scaled(p, r->wide.normal, -normal_impulse);
   if (!(normal_impulse > 0)) normal_impulse = 0;
   (void)set_rigid_impulse(r, normal_impulse,
       sbri_four_add_scaled(
-          clamp_friction(r, friction_impulse, normal_impulse), r->wide_normal, normal_impulse));
+          clamp_friction(r, friction_impulse, normal_impulse), r->wide.normal, normal_impulse));
 }
 
 /* Twice the decrease of the energy that the impulses minimise, J: with the velocity error e it decreases from
@@ -176,7 +179,7 @@ static float fall_of_energy(const sbri_contact_constraint *rows, uint32_t count)
     const sbri_contact_constraint *r = &rows[i];
     if (!r->active.is_pressing) continue;
     sbri_four errors = sbri_four_add(r->change, sbri_rigid_velocity_error(r));
-    sum += sbri_four_dot(sbri_four_sub(r->impulse, r->search_direction), errors);
+    sum += sbri_four_dot(sbri_four_sub(r->wide.impulse, r->search_direction), errors);
   }
   return sum;
 }
@@ -185,7 +188,7 @@ static float fall_of_energy(const sbri_contact_constraint *rows, uint32_t count)
  * the energy increases, a smaller fraction is applied, in the end nothing. */
 static void apply_active_steps(sbri_contact_constraint *rows, uint32_t count) {
   for (uint32_t i = 0; i < count; i++)
-    rows[i].change = sbri_rigid_velocity_error(&rows[i]), rows[i].search_direction = rows[i].impulse;
+    rows[i].change = sbri_rigid_velocity_error(&rows[i]), rows[i].search_direction = rows[i].wide.impulse;
   float fraction = 1;
   for (int attempt = 0; attempt <= STEP_ATTEMPTS; attempt++) {
     if (attempt == STEP_ATTEMPTS) fraction = 0;
@@ -226,7 +229,7 @@ static float set_soft_impulse(sbri_contact_constraint *r, float normal_impulse, 
   r->normal_impulse = normal_impulse, r->friction_impulse = friction_impulse;
   sbf_vec3 now = impulse_of(r), change = sbri_sub(now, before);
   sbri_constraint_apply_impulse(r, change);
-  r->impulse = sbri_four_of(now);
+  r->wide.impulse = sbri_four_of(now);
   return sbri_dot(change, change) / (r->normal_mass * r->normal_mass);
 }
 
@@ -264,7 +267,7 @@ static void solve_soft(sbri_contact_constraint *rows, uint32_t count) {
   for (int iteration = 0; iteration < MAX_SOFT_ITERATIONS; iteration++) {
     float max_value = 0, sum = 0;
     for (uint32_t i = 0; i < count; i++) {
-      rows[i].change = sbri_four_scale(rows[i].impulse, -1);
+      rows[i].change = sbri_four_scale(rows[i].wide.impulse, -1);
       if (rows[i].is_active) max_value = max_of(max_value, correct_soft(&rows[i]));
     }
     for (uint32_t i = count; i-- > 0;)
@@ -273,7 +276,7 @@ static void solve_soft(sbri_contact_constraint *rows, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
       sbri_contact_constraint *r = &rows[i];
       if (!r->is_active) continue;
-      r->change = sbri_four_add(r->change, r->impulse);
+      r->change = sbri_four_add(r->change, r->wide.impulse);
       sum += sbri_four_dot(r->change, r->change) / r->normal_mass;
     }
     float factor = last > 0 && sum <= last ? sum / last : 0;
@@ -293,7 +296,7 @@ void sbri_solve_constraints(sbri_contact_constraint *rows, uint32_t count) {
   sbri_solver_body fixed_body = {.inverse_mass = 0};
   bool all_are_rigid = true;
   for (uint32_t i = 0; i < count; i++) {
-    rows[i].impulse = sbri_four_of(impulse_of(&rows[i]));
+    rows[i].wide.impulse = sbri_four_of(impulse_of(&rows[i]));
     rows[i].search_direction = sbri_four_of(sbri_vec3(0, 0, 0));
     all_are_rigid = all_are_rigid && rows[i].a.count + rows[i].b.count == 0;
   }

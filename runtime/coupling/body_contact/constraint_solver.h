@@ -49,15 +49,15 @@ static inline void sbri_constraint_apply_impulse(const sbri_contact_constraint *
 /* Velocity that a contact of rigid bodies still lacks: target minus current velocity, minus what its
  * compliance gives way, m/s. */
 static inline sbri_four sbri_rigid_velocity_error(const sbri_contact_constraint *r) {
-  const sbri_solver_body *a = r->bodies[0], *b = r->bodies[1];
+  const sbri_solver_body *a = r->wide.bodies[0], *b = r->wide.bodies[1];
   sbri_four v = sbri_four_sub(
       a->velocity, b->velocity); /* and the cross products of angular velocity and arm, in yzx order: */
-  sbri_four w = sbri_four_sub(sbri_four_mul(a->angular_velocity, r->permuted_arms[0]),
-      sbri_four_mul(sbri_four_yzx(a->angular_velocity), r->lever_arms[0]));
-  sbri_four u = sbri_four_sub(sbri_four_mul(b->angular_velocity, r->permuted_arms[1]),
-      sbri_four_mul(sbri_four_yzx(b->angular_velocity), r->lever_arms[1]));
+  sbri_four w = sbri_four_sub(sbri_four_mul(a->angular_velocity, r->wide.permuted_arms[0]),
+      sbri_four_mul(sbri_four_yzx(a->angular_velocity), r->wide.lever_arms[0]));
+  sbri_four u = sbri_four_sub(sbri_four_mul(b->angular_velocity, r->wide.permuted_arms[1]),
+      sbri_four_mul(sbri_four_yzx(b->angular_velocity), r->wide.lever_arms[1]));
   sbri_four velocity = sbri_four_add(v, sbri_four_yzx(sbri_four_sub(w, u)));
-  return sbri_four_add_scaled(sbri_four_sub(r->wide_target, velocity), r->impulse, -r->compliance);
+  return sbri_four_add_scaled(sbri_four_sub(r->wide.target, velocity), r->wide.impulse, -r->compliance);
 }
 
 /* ---- active_contacts.c ---- */

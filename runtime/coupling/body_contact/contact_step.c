@@ -57,9 +57,9 @@ static sbf_vec3 gravity_acceleration(const sbr_world *world, const sbri_contact_
 /* Tangential slip of a relative to b since they stick. */
 static sbf_vec3 current_slip(const sbri_contact_constraint *r) {
   const sbri_contact *t = r->contact;
-  sbf_vec3 movement = sbri_sub(r->offset, t->stick_separation);
+  sbf_vec3 movement = sbri_sub(r->offset, t->sticking.separation);
   if (is_plane(t)) return zero;
-  return sbri_add(t->tangent_slip, sbri_add_scaled(movement, t->normal, -sbri_dot(movement, t->normal)));
+  return sbri_add(t->sticking.slip, sbri_add_scaled(movement, t->normal, -sbri_dot(movement, t->normal)));
 }
 
 /* Depth at which the bias begins to act; it acts fully at twice this depth. */
@@ -161,12 +161,13 @@ static void store_solution(const sbri_contact_constraint *r) {
   t->solved_speed = sbri_dot(t->normal, sbri_constraint_velocity(r));
   t->has_solved_speed = true;
   if (t->is_loaded) {
-    t->tick_impulse += t->normal_impulse, t->event_position = r->position;
-    t->max_closing_speed =
-        t->max_closing_speed > -r->initial_normal_speed ? t->max_closing_speed : -r->initial_normal_speed;
+    t->tick.impulse += t->normal_impulse, t->tick.position = r->position;
+    t->tick.max_closing_speed = t->tick.max_closing_speed > -r->initial_normal_speed
+                                    ? t->tick.max_closing_speed
+                                    : -r->initial_normal_speed;
   }
   if (sbri_dot(t->friction_impulse, t->friction_impulse) >= max_friction * max_friction)
-    t->tangent_slip = zero, t->stick_separation = r->offset;
+    t->sticking.slip = zero, t->sticking.separation = r->offset;
 }
 
 void sbri_contacts_solve(const sbr_world *world, const sbri_contact_group *group, bool first) {
@@ -177,7 +178,7 @@ void sbri_contacts_solve(const sbr_world *world, const sbri_contact_group *group
   for (uint32_t i = 0; i < count; i++) {
     rows[i].contact = &all->contacts[group->first_contact + i];
     sbri_contact_constraint_prepare(all, group, &rows[i], first);
-    if (first) rows[i].contact->stick_separation = rows[i].offset;
+    if (first) rows[i].contact->sticking.separation = rows[i].offset;
   }
   for (uint32_t i = 0; i < count; i++) prepare_target(world, group, &rows[i]);
   for (uint32_t i = 0; i < count; i++)
@@ -197,7 +198,7 @@ void sbri_contacts_finish_tick(const sbri_body_contacts *all, const sbri_contact
   for (uint32_t i = 0; i < group->contact_count; i++) {
     sbri_contact_constraint *r = &all->constraints[group->first_contact + i];
     sbri_contact_constraint_prepare(all, group, r, false);
-    r->contact->tangent_slip = current_slip(r);
+    r->contact->sticking.slip = current_slip(r);
     update_external_bias(r, sbri_dot(r->normal, sbri_constraint_velocity(r)));
   }
 }

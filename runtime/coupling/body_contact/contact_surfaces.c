@@ -88,8 +88,8 @@ static void find_relations(sbr_world *world, uint32_t character, sbri_contact_su
   const sbr_model *model = world->characters[character].model->detail.base;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbr_model *other = world->characters[i].model;
-    if (!other || other->detail.base != model || !all->surfaces[i]) continue;
-    memcpy(relations, all->rest_relations[i], count);
+    if (!other || other->detail.base != model || !all->shapes.surfaces[i]) continue;
+    memcpy(relations, all->shapes.rest_relations[i], count);
     return;
   }
   memset(relations, 0, count);
@@ -119,16 +119,17 @@ static bool create_all(const sbr_model *base, sbri_contact_surface *surfaces, sb
 void sbri_contact_surfaces_select_level(sbr_world *world, uint32_t character) {
   sbri_body_contacts *all = world->body_contacts;
   const sbr_model *model = world->characters[character].model;
-  if (!all || !model || !all->level_surfaces[character]) return;
+  if (!all || !model || !all->shapes.level_surfaces[character]) return;
   for (uint32_t r = 0; r < count_soft_levels(model->detail.base); r++)
     if (model->detail.base->detail.levels[r] == model)
-      all->surfaces[character] = all->level_surfaces[character] + (size_t)r * model->asset->soft_bodies.count;
+      all->shapes.surfaces[character] =
+          all->shapes.level_surfaces[character] + (size_t)r * model->asset->soft_bodies.count;
 }
 
 bool sbri_contact_surfaces_create(sbr_world *world, uint32_t character) {
   sbri_body_contacts *all = world->body_contacts;
   const sbr_model *model = world->characters[character].model;
-  if (!all || all->surfaces[character]) return true;
+  if (!all || all->shapes.surfaces[character]) return true;
   uint32_t count = model->asset->soft_bodies.count, levels = count_soft_levels(model->detail.base),
            rigid = model->rigid.body_count;
   size_t pairs = (size_t)count * count + (size_t)count * rigid;
@@ -141,38 +142,38 @@ bool sbri_contact_surfaces_create(sbr_world *world, uint32_t character) {
   uint8_t *relations = ok ? sbfi_arena_allocate(arena, pairs + 1, 1) : NULL;
   ok = relations != NULL;
   if (ok) find_relations(world, character, surfaces, hulls, relations, pairs);
-  all->rest_relations[character] = relations, all->hulls[character] = hulls;
+  all->shapes.rest_relations[character] = relations, all->shapes.hulls[character] = hulls;
   if (!ok) {
     sbfi_arena_free(arena);
     return false;
   }
-  all->surfaces[character] = all->level_surfaces[character] = surfaces;
+  all->shapes.surfaces[character] = all->shapes.level_surfaces[character] = surfaces;
   sbri_contact_surfaces_select_level(world, character);
   return true;
 }
 
 void sbri_contact_surfaces_free(sbr_world *world, uint32_t character) {
   sbri_body_contacts *all = world->body_contacts;
-  if (!all || !all->surfaces[character]) return;
+  if (!all || !all->shapes.surfaces[character]) return;
   sbfi_arena_free(&all->arenas[character]);
-  all->surfaces[character] = all->level_surfaces[character] = NULL;
+  all->shapes.surfaces[character] = all->shapes.level_surfaces[character] = NULL;
 }
 
 /* ---- Memory of all characters ---- */
 
 static void free_bodies(sbr_world *world) {
   sbri_body_contacts *all = world->body_contacts;
-  size_t capacity = all->body_capacity;
-  sbfi_free(&world->allocator, all->bodies, capacity * sizeof *all->bodies);
-  sbfi_free(&world->allocator, all->boxes, capacity * sizeof *all->boxes);
+  size_t capacity = all->broad_phase.body_capacity;
+  sbfi_free(&world->allocator, all->broad_phase.bodies, capacity * sizeof *all->broad_phase.bodies);
+  sbfi_free(&world->allocator, all->broad_phase.boxes, capacity * sizeof *all->broad_phase.boxes);
   sbfi_free(&world->allocator, all->solver_bodies,
       SBRI_SOLVER_BODIES_PER_BODY * capacity * sizeof *all->solver_bodies);
-  sbfi_free(&world->allocator, all->tree.items, capacity * sizeof *all->tree.items);
-  sbfi_free(&world->allocator, all->tree.nodes,
-      sbri_bounds_tree_nodes(all->body_capacity) * sizeof *all->tree.nodes);
-  all->bodies = NULL, all->boxes = NULL, all->solver_bodies = NULL, all->tree.items = NULL,
-  all->tree.nodes = NULL;
-  all->body_capacity = all->body_count = 0;
+  sbfi_free(&world->allocator, all->broad_phase.tree.items, capacity * sizeof *all->broad_phase.tree.items);
+  sbfi_free(&world->allocator, all->broad_phase.tree.nodes,
+      sbri_bounds_tree_nodes(all->broad_phase.body_capacity) * sizeof *all->broad_phase.tree.nodes);
+  all->broad_phase.bodies = NULL, all->broad_phase.boxes = NULL, all->solver_bodies = NULL,
+  all->broad_phase.tree.items = NULL, all->broad_phase.tree.nodes = NULL;
+  all->broad_phase.body_capacity = all->broad_phase.body_count = 0;
 }
 
 static uint32_t count_bodies(const sbr_model *model) {
@@ -184,17 +185,20 @@ bool sbri_body_contacts_reserve(sbr_world *world, const sbr_model *model) {
   if (!all) return true;
   uint32_t needed = count_bodies(model);
   for (uint32_t i = 0; i < world->character_capacity; i++) needed += count_bodies(world->characters[i].model);
-  if (needed <= all->body_capacity) return true;
+  if (needed <= all->broad_phase.body_capacity) return true;
   free_bodies(world);
-  all->body_capacity = needed;
-  all->bodies = sbfi_allocate(&world->allocator, needed * sizeof *all->bodies);
-  all->boxes = sbfi_allocate(&world->allocator, needed * sizeof *all->boxes);
+  all->broad_phase.body_capacity = needed;
+  all->broad_phase.bodies = sbfi_allocate(&world->allocator, needed * sizeof *all->broad_phase.bodies);
+  all->broad_phase.boxes = sbfi_allocate(&world->allocator, needed * sizeof *all->broad_phase.boxes);
   all->solver_bodies = sbfi_allocate(
       &world->allocator, SBRI_SOLVER_BODIES_PER_BODY * (size_t)needed * sizeof *all->solver_bodies);
-  all->tree.items = sbfi_allocate(&world->allocator, needed * sizeof *all->tree.items);
-  all->tree.nodes =
-      sbfi_allocate(&world->allocator, sbri_bounds_tree_nodes(needed) * sizeof *all->tree.nodes);
-  if (all->bodies && all->boxes && all->solver_bodies && all->tree.items && all->tree.nodes) return true;
+  all->broad_phase.tree.items =
+      sbfi_allocate(&world->allocator, needed * sizeof *all->broad_phase.tree.items);
+  all->broad_phase.tree.nodes =
+      sbfi_allocate(&world->allocator, sbri_bounds_tree_nodes(needed) * sizeof *all->broad_phase.tree.nodes);
+  if (all->broad_phase.bodies && all->broad_phase.boxes && all->solver_bodies &&
+      all->broad_phase.tree.items && all->broad_phase.tree.nodes)
+    return true;
   free_bodies(world);
   return false;
 }
@@ -204,13 +208,13 @@ void sbri_body_contacts_free(sbr_world *world) {
   if (!all) return;
   const sbf_allocator *a = &world->allocator;
   size_t characters = all->character_capacity, contacts = all->contact_capacity;
-  for (uint32_t i = 0; all->surfaces && i < characters; i++) sbri_contact_surfaces_free(world, i);
+  for (uint32_t i = 0; all->shapes.surfaces && i < characters; i++) sbri_contact_surfaces_free(world, i);
   free_bodies(world);
   sbfi_free(a, all->arenas, characters * sizeof *all->arenas);
-  sbfi_free(a, all->surfaces, characters * sizeof *all->surfaces);
-  sbfi_free(a, all->level_surfaces, characters * sizeof *all->level_surfaces);
-  sbfi_free(a, all->hulls, characters * sizeof *all->hulls);
-  sbfi_free(a, all->rest_relations, characters * sizeof *all->rest_relations);
+  sbfi_free(a, all->shapes.surfaces, characters * sizeof *all->shapes.surfaces);
+  sbfi_free(a, all->shapes.level_surfaces, characters * sizeof *all->shapes.level_surfaces);
+  sbfi_free(a, all->shapes.hulls, characters * sizeof *all->shapes.hulls);
+  sbfi_free(a, all->shapes.rest_relations, characters * sizeof *all->shapes.rest_relations);
   sbfi_free(a, all->group_of, characters * sizeof *all->group_of);
   sbfi_free(a, all->member_of, characters * sizeof *all->member_of);
   sbfi_free(a, all->next_of_group, characters * sizeof *all->next_of_group);
@@ -220,11 +224,11 @@ void sbri_body_contacts_free(sbr_world *world) {
   sbfi_free(a, all->found_pairs, contacts * sizeof *all->found_pairs);
   sbfi_free(a, all->contacts, contacts * sizeof *all->contacts);
   sbfi_free(a, all->constraints, contacts * sizeof *all->constraints);
-  sbfi_free(a, all->cached, contacts * sizeof *all->cached);
-  sbfi_free(a, all->next_cached, contacts * sizeof *all->next_cached);
-  sbfi_free(a, all->touching, contacts * sizeof *all->touching);
-  sbfi_free(a, all->next_touching, contacts * sizeof *all->next_touching);
-  sbfi_free(a, all->cache_table, all->table_capacity * sizeof *all->cache_table);
+  sbfi_free(a, all->cache.at, contacts * sizeof *all->cache.at);
+  sbfi_free(a, all->cache.next, contacts * sizeof *all->cache.next);
+  sbfi_free(a, all->pair_reports.at, contacts * sizeof *all->pair_reports.at);
+  sbfi_free(a, all->pair_reports.next, contacts * sizeof *all->pair_reports.next);
+  sbfi_free(a, all->cache.table, all->cache.table_capacity * sizeof *all->cache.table);
   sbfi_free(a, all, sizeof *all);
   world->body_contacts = NULL;
 }
@@ -252,7 +256,7 @@ void sbri_contact_surface_update(sbr_world *world, const sbri_group_member *m, u
   const sbri_character *c = m->character;
   const sbri_body *body = &c->model->bodies[soft_body];
   const sbri_island *island = &c->model->islands[body->island];
-  sbri_contact_surface *s = &world->body_contacts->surfaces[c - world->characters][soft_body];
+  sbri_contact_surface *s = &world->body_contacts->shapes.surfaces[c - world->characters][soft_body];
   const sbri_point *points = sbri_positions(c) + island->first_slot;
   if (island->splits && s->triangle_count) {
     sbri_island now = sbri_island_now(c, island);

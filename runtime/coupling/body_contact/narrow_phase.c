@@ -16,17 +16,17 @@ static const float PASSED_THROUGH_COSINE = 0.3f;
 static const float DEEP_FRACTION = 0.25f;
 
 static sbri_pair_body pair_body_of(const sbri_narrow_phase *f, uint32_t number) {
-  const sbri_contact_body *body = &f->world->body_contacts->bodies[number];
+  const sbri_contact_body *body = &f->world->body_contacts->broad_phase.bodies[number];
   sbri_pair_body p = {.body = body, .member = f->world->body_contacts->member_of[body->character]};
   p.owner = &f->members[p.member];
   const sbr_model *model = p.owner->character->model;
   if (body->rigid) {
     p.rigid = &model->rigid.bodies[body->body_index];
-    p.surface = &f->world->body_contacts->hulls[body->character][body->body_index];
+    p.surface = &f->world->body_contacts->shapes.hulls[body->character][body->body_index];
     p.friction = p.rigid->source->friction, p.restitution = p.rigid->source->restitution;
   } else {
     p.soft = &model->bodies[body->body_index];
-    p.surface = &f->world->body_contacts->surfaces[body->character][body->body_index];
+    p.surface = &f->world->body_contacts->shapes.surfaces[body->character][body->body_index];
     p.friction = p.soft->contact.friction, p.restitution = p.soft->contact.restitution;
   }
   return p;
@@ -92,7 +92,7 @@ static bool may_resolve_deep(
   if (!sbri_are_same_character(soft, other)) return true;
   const sbr_model *model = soft->owner->character->model;
   size_t softs = model->asset->soft_bodies.count, i = soft->body->body_index, k = other->body->body_index;
-  const uint8_t *relations = f->world->body_contacts->rest_relations[soft->body->character];
+  const uint8_t *relations = f->world->body_contacts->shapes.rest_relations[soft->body->character];
   return relations[other->rigid ? softs * softs + i * model->rigid.body_count + k : i * softs + k] ==
          SBRI_REST_SEPARATE;
 }

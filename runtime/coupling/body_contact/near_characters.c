@@ -48,17 +48,17 @@ void sbri_near_characters_find(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     sbri_character *c = &world->characters[i];
     if (!has_contact_bodies(c)) continue;
-    all->bodies[count].character = i;
-    all->boxes[count++] = box_of(world, c);
+    all->broad_phase.bodies[count].character = i;
+    all->broad_phase.boxes[count++] = box_of(world, c);
   }
-  sbri_bounds_tree_make(&all->tree, all->boxes, count);
+  sbri_bounds_tree_make(&all->broad_phase.tree, all->broad_phase.boxes, count);
   for (uint32_t a = 0; a < count; a++) {
-    sbri_character *c = &world->characters[all->bodies[a].character];
+    sbri_character *c = &world->characters[all->broad_phase.bodies[a].character];
     sbri_bounds_walk walk;
     uint32_t b;
     if (!has_detail_levels(c)) continue;
-    sbri_bounds_walk_begin(&walk, &all->tree, all->boxes[a]);
+    sbri_bounds_walk_begin(&walk, &all->broad_phase.tree, all->broad_phase.boxes[a]);
     while (!c->near && sbri_bounds_walk_next(&walk, &b))
-      c->near = b != a && sbri_boxes_overlap(&all->boxes[a], &all->boxes[b]);
+      c->near = b != a && sbri_boxes_overlap(&all->broad_phase.boxes[a], &all->broad_phase.boxes[b]);
   }
 }

@@ -40,13 +40,13 @@ static bool is_same_pair(const sbri_pair_report *c, const sbri_contact *t) {
 /* Adds a contact; position and normal are those of the largest impulse. */
 static void add_contact(
     sbri_pair_report *c, const sbri_contact_group *group, const sbri_contact *t, float *max_impulse) {
-  c->impulse += t->tick_impulse;
-  c->speed = c->speed > t->max_closing_speed ? c->speed : t->max_closing_speed;
-  if (!(t->tick_impulse > *max_impulse)) return;
-  *max_impulse = t->tick_impulse;
+  c->impulse += t->tick.impulse;
+  c->speed = c->speed > t->tick.max_closing_speed ? c->speed : t->tick.max_closing_speed;
+  if (!(t->tick.impulse > *max_impulse)) return;
+  *max_impulse = t->tick.impulse;
   c->normal = c->body_ids[0] == t->body_ids[0] ? t->normal : sbri_scale(t->normal, -1);
-  c->position = (sbr_double3){group->origin.x + (double)t->event_position.x,
-      group->origin.y + (double)t->event_position.y, group->origin.z + (double)t->event_position.z};
+  c->position = (sbr_double3){group->origin.x + (double)t->tick.position.x,
+      group->origin.y + (double)t->tick.position.y, group->origin.z + (double)t->tick.position.z};
 }
 
 /* Lists the touching pairs of a group. Contacts of a pair are adjacent. */
@@ -62,8 +62,8 @@ static void list_group(sbri_body_contacts *all, const sbri_contact_group *group)
       is_touching = is_touching || all->constraints[group->first_contact + i].separation <= MAX_GAP_M;
       i++;
     } while (i < group->contact_count && is_same_pair(&c, &contacts[i]));
-    if (is_between(t) && (is_touching || c.impulse > 0) && all->touching_count < all->contact_capacity)
-      all->touching[all->touching_count++] = c;
+    if (is_between(t) && (is_touching || c.impulse > 0) && all->pair_reports.count < all->contact_capacity)
+      all->pair_reports.at[all->pair_reports.count++] = c;
   }
 }
 
@@ -81,9 +81,9 @@ static void list_resting(sbr_world *world, const sbri_pair_report *before, uint3
   sbri_body_contacts *all = world->body_contacts;
   for (uint32_t i = 0; i < count; i++)
     if (rests(world, before[i].body_ids[0]) && rests(world, before[i].body_ids[1]) &&
-        all->touching_count < all->contact_capacity) {
-      all->touching[all->touching_count] = before[i];
-      all->touching[all->touching_count++].impulse = 0;
+        all->pair_reports.count < all->contact_capacity) {
+      all->pair_reports.at[all->pair_reports.count] = before[i];
+      all->pair_reports.at[all->pair_reports.count++].impulse = 0;
     }
 }
 
@@ -112,14 +112,14 @@ static void report(sbr_world *world, const sbri_pair_report *c, sbri_event_kind 
 
 void sbri_pair_reports_publish(sbr_world *world) {
   sbri_body_contacts *all = world->body_contacts;
-  sbri_pair_report *before = all->touching, *now = all->next_touching;
-  uint32_t before_count = all->touching_count, kept = 0, b = 0;
-  all->touching = now, all->next_touching = before;
-  all->touching_count = 0;
+  sbri_pair_report *before = all->pair_reports.at, *now = all->pair_reports.next;
+  uint32_t before_count = all->pair_reports.count, kept = 0, b = 0;
+  all->pair_reports.at = now, all->pair_reports.next = before;
+  all->pair_reports.count = 0;
   for (uint32_t g = 0; g < all->group_count; g++) list_group(all, &all->groups[g]);
   list_resting(world, before, before_count);
-  sort(now, all->touching_count);
-  for (uint32_t i = 0; i < all->touching_count; i++) {
+  sort(now, all->pair_reports.count);
+  for (uint32_t i = 0; i < all->pair_reports.count; i++) {
     sbri_pair_report c = now[i];
     while (b < before_count && order(&before[b], &c) < 0) report(world, &before[b++], SBRI_EVENT_CONTACT_END);
     bool was_touching = b < before_count && order(&before[b], &c) == 0;
@@ -132,15 +132,16 @@ void sbri_pair_reports_publish(sbr_world *world) {
     now[kept++] = c;
   }
   while (b < before_count) report(world, &before[b++], SBRI_EVENT_CONTACT_END);
-  all->touching_count = kept;
+  all->pair_reports.count = kept;
 }
 
 void sbri_pair_reports_remove(sbr_world *world, uint32_t character) {
   sbri_body_contacts *all = world->body_contacts;
   uint32_t kept = 0;
-  for (uint32_t i = 0; all && i < all->touching_count; i++) {
-    const sbri_pair_report *c = &all->touching[i];
-    if (c->body_ids[0] >> 32 != character && c->body_ids[1] >> 32 != character) all->touching[kept++] = *c;
+  for (uint32_t i = 0; all && i < all->pair_reports.count; i++) {
+    const sbri_pair_report *c = &all->pair_reports.at[i];
+    if (c->body_ids[0] >> 32 != character && c->body_ids[1] >> 32 != character)
+      all->pair_reports.at[kept++] = *c;
   }
-  if (all) all->touching_count = kept;
+  if (all) all->pair_reports.count = kept;
 }

@@ -14,7 +14,7 @@ static const float SAME_POINT_FRACTION = 0.1f;
 
 static uint32_t bucket_of(const sbri_body_contacts *all, const uint64_t body_ids[2]) {
   uint64_t hash = (body_ids[0] ^ body_ids[1] * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-  return (uint32_t)(hash >> 32) & (all->table_capacity - 1);
+  return (uint32_t)(hash >> 32) & (all->cache.table_capacity - 1);
 }
 
 static bool has_body_ids(const sbri_cached_contact *m, const uint64_t body_ids[2]) {
@@ -22,24 +22,24 @@ static bool has_body_ids(const sbri_cached_contact *m, const uint64_t body_ids[2
 }
 
 static const sbri_cached_contact *cached_at(const sbri_body_contacts *all, uint32_t number) {
-  return number == UINT32_MAX ? NULL : &all->cached[number];
+  return number == UINT32_MAX ? NULL : &all->cache.at[number];
 }
 
 /* Table entry of the first cached contact of two bodies, or the free entry for it. */
 static uint32_t *table_entry(const sbri_body_contacts *all, const uint64_t body_ids[2]) {
-  for (uint32_t at = bucket_of(all, body_ids);; at = (at + 1) & (all->table_capacity - 1)) {
-    const sbri_cached_contact *first = cached_at(all, all->cache_table[at]);
-    if (!first || has_body_ids(first, body_ids)) return &all->cache_table[at];
+  for (uint32_t at = bucket_of(all, body_ids);; at = (at + 1) & (all->cache.table_capacity - 1)) {
+    const sbri_cached_contact *first = cached_at(all, all->cache.table[at]);
+    if (!first || has_body_ids(first, body_ids)) return &all->cache.table[at];
   }
 }
 
 /* Links the cached contacts of each two bodies, which need not be adjacent: face contacts in one order of the
  * bodies can lie between others. */
 static void build_cache_table(sbri_body_contacts *all) {
-  memset(all->cache_table, 0xff, all->table_capacity * sizeof *all->cache_table);
-  for (uint32_t i = all->cached_count; i-- > 0;) { /* keeps their order */
-    uint32_t *first = table_entry(all, all->cached[i].body_ids);
-    all->cached[i].next = *first;
+  memset(all->cache.table, 0xff, all->cache.table_capacity * sizeof *all->cache.table);
+  for (uint32_t i = all->cache.count; i-- > 0;) { /* keeps their order */
+    uint32_t *first = table_entry(all, all->cache.at[i].body_ids);
+    all->cache.at[i].next = *first;
     *first = i;
   }
 }
@@ -93,7 +93,7 @@ void sbri_contacts_load_cached(const sbri_body_contacts *all, const sbri_contact
     t->external_bias = m->external_acceleration * step_s;
     t->friction_impulse = sbri_scale(
         sbri_add_scaled(m->friction_force, t->normal, -sbri_dot(m->friction_force, t->normal)), step_s);
-    t->tangent_slip = sbri_add_scaled(m->tangent_slip, t->normal, -sbri_dot(m->tangent_slip, t->normal));
+    t->sticking.slip = sbri_add_scaled(m->tangent_slip, t->normal, -sbri_dot(m->tangent_slip, t->normal));
   }
 }
 
@@ -115,7 +115,7 @@ static sbri_cached_contact cached_from(const sbri_contact *t, float step_s) {
       .local_point = t->a.point,
       .normal_force = t->normal_impulse / step_s,
       .friction_force = sbri_scale(t->friction_impulse, 1 / step_s),
-      .tangent_slip = t->tangent_slip,
+      .tangent_slip = t->sticking.slip,
       .external_acceleration = t->external_bias / step_s,
       .common_exit = t->exits_common ? t->normal : (sbf_vec3){0, 0, 0}};
 }
@@ -130,18 +130,18 @@ static bool stays_asleep(const sbr_world *world, const sbri_cached_contact *m) {
 void sbri_contacts_store(sbr_world *world) {
   sbri_body_contacts *all = world->body_contacts;
   uint32_t count = 0;
-  for (uint32_t i = 0; i < all->cached_count; i++)
-    if (stays_asleep(world, &all->cached[i])) all->next_cached[count++] = all->cached[i];
+  for (uint32_t i = 0; i < all->cache.count; i++)
+    if (stays_asleep(world, &all->cache.at[i])) all->cache.next[count++] = all->cache.at[i];
   for (uint32_t g = 0; g < all->group_count; g++)
     for (uint32_t i = 0; i < all->groups[g].contact_count; i++) {
       const sbri_contact *t = &all->contacts[all->groups[g].first_contact + i];
       if ((t->is_loaded || t->exits_common) && count < all->contact_capacity)
-        all->next_cached[count++] = cached_from(t, all->groups[g].step_s);
+        all->cache.next[count++] = cached_from(t, all->groups[g].step_s);
     }
-  sbri_cached_contact *before = all->cached;
-  all->cached = all->next_cached;
-  all->next_cached = before;
-  all->cached_count = count;
+  sbri_cached_contact *before = all->cache.at;
+  all->cache.at = all->cache.next;
+  all->cache.next = before;
+  all->cache.count = count;
   build_cache_table(all);
 }
 
@@ -149,17 +149,17 @@ void sbri_contacts_store(sbr_world *world) {
 
 size_t sbri_contact_cache_size(const sbr_world *world) {
   const sbri_body_contacts *all = world->body_contacts;
-  return all ? sizeof(uint64_t) + all->contact_capacity * sizeof *all->cached : 0;
+  return all ? sizeof(uint64_t) + all->contact_capacity * sizeof *all->cache.at : 0;
 }
 
 void sbri_contact_cache_save(const sbr_world *world, unsigned char *to) {
   const sbri_body_contacts *all = world->body_contacts;
   if (!all) return;
-  uint64_t count = all->cached_count;
+  uint64_t count = all->cache.count;
   memcpy(to, &count, sizeof count);
-  memcpy(to + sizeof count, all->cached, count * sizeof *all->cached);
-  memset(to + sizeof count + count * sizeof *all->cached, 0,
-      (all->contact_capacity - count) * sizeof *all->cached);
+  memcpy(to + sizeof count, all->cache.at, count * sizeof *all->cache.at);
+  memset(to + sizeof count + count * sizeof *all->cache.at, 0,
+      (all->contact_capacity - count) * sizeof *all->cache.at);
 }
 
 void sbri_contact_cache_restore(sbr_world *world, const unsigned char *from) {
@@ -167,7 +167,7 @@ void sbri_contact_cache_restore(sbr_world *world, const unsigned char *from) {
   if (!all) return;
   uint64_t count;
   memcpy(&count, from, sizeof count);
-  all->cached_count = (uint32_t)count;
-  memcpy(all->cached, from + sizeof count, count * sizeof *all->cached);
+  all->cache.count = (uint32_t)count;
+  memcpy(all->cache.at, from + sizeof count, count * sizeof *all->cache.at);
   build_cache_table(all);
 }

@@ -12,10 +12,10 @@ static bool make(sbr_world *world, uint32_t contacts) {
   *all = (sbri_body_contacts){.character_capacity = world->character_capacity, .contact_capacity = contacts};
   world->body_contacts = all;
   all->arenas = sbfi_allocate(a, characters * sizeof *all->arenas);
-  all->surfaces = sbfi_allocate(a, characters * sizeof *all->surfaces);
-  all->level_surfaces = sbfi_allocate(a, characters * sizeof *all->level_surfaces);
-  all->hulls = sbfi_allocate(a, characters * sizeof *all->hulls);
-  all->rest_relations = sbfi_allocate(a, characters * sizeof *all->rest_relations);
+  all->shapes.surfaces = sbfi_allocate(a, characters * sizeof *all->shapes.surfaces);
+  all->shapes.level_surfaces = sbfi_allocate(a, characters * sizeof *all->shapes.level_surfaces);
+  all->shapes.hulls = sbfi_allocate(a, characters * sizeof *all->shapes.hulls);
+  all->shapes.rest_relations = sbfi_allocate(a, characters * sizeof *all->shapes.rest_relations);
   all->group_of = sbfi_allocate(a, characters * sizeof *all->group_of);
   all->member_of = sbfi_allocate(a, characters * sizeof *all->member_of);
   all->next_of_group = sbfi_allocate(a, characters * sizeof *all->next_of_group);
@@ -25,20 +25,22 @@ static bool make(sbr_world *world, uint32_t contacts) {
   all->found_pairs = sbfi_allocate(a, contacts * sizeof *all->found_pairs);
   all->contacts = sbfi_allocate(a, contacts * sizeof *all->contacts);
   all->constraints = sbfi_allocate(a, contacts * sizeof *all->constraints);
-  all->cached = sbfi_allocate(a, contacts * sizeof *all->cached);
-  all->next_cached = sbfi_allocate(a, contacts * sizeof *all->next_cached);
-  all->touching = sbfi_allocate(a, contacts * sizeof *all->touching);
-  all->next_touching = sbfi_allocate(a, contacts * sizeof *all->next_touching);
-  for (all->table_capacity = 1; all->table_capacity < 2 * contacts;) all->table_capacity *= 2;
-  all->cache_table = sbfi_allocate(a, all->table_capacity * sizeof *all->cache_table);
-  for (uint32_t i = 0; all->cache_table && i < all->table_capacity; i++) all->cache_table[i] = UINT32_MAX;
-  for (size_t i = 0; all->surfaces && i < characters; i++) all->surfaces[i] = NULL;
-  for (size_t i = 0; all->level_surfaces && i < characters; i++) all->level_surfaces[i] = NULL;
-  bool good = all->arenas && all->surfaces && all->level_surfaces && all->hulls && all->rest_relations &&
-              all->group_of && all->member_of && all->next_of_group && all->members && all->groups &&
-              all->pairs && all->found_pairs && all->contacts && all->constraints && all->cached &&
-              all->next_cached && all->touching && all->next_touching && all->cache_table &&
-              sbri_body_contacts_reserve(world, NULL);
+  all->cache.at = sbfi_allocate(a, contacts * sizeof *all->cache.at);
+  all->cache.next = sbfi_allocate(a, contacts * sizeof *all->cache.next);
+  all->pair_reports.at = sbfi_allocate(a, contacts * sizeof *all->pair_reports.at);
+  all->pair_reports.next = sbfi_allocate(a, contacts * sizeof *all->pair_reports.next);
+  for (all->cache.table_capacity = 1; all->cache.table_capacity < 2 * contacts;)
+    all->cache.table_capacity *= 2;
+  all->cache.table = sbfi_allocate(a, all->cache.table_capacity * sizeof *all->cache.table);
+  for (uint32_t i = 0; all->cache.table && i < all->cache.table_capacity; i++)
+    all->cache.table[i] = UINT32_MAX;
+  for (size_t i = 0; all->shapes.surfaces && i < characters; i++) all->shapes.surfaces[i] = NULL;
+  for (size_t i = 0; all->shapes.level_surfaces && i < characters; i++) all->shapes.level_surfaces[i] = NULL;
+  bool good = all->arenas && all->shapes.surfaces && all->shapes.level_surfaces && all->shapes.hulls &&
+              all->shapes.rest_relations && all->group_of && all->member_of && all->next_of_group &&
+              all->members && all->groups && all->pairs && all->found_pairs && all->contacts &&
+              all->constraints && all->cache.at && all->cache.next && all->pair_reports.at &&
+              all->pair_reports.next && all->cache.table && sbri_body_contacts_reserve(world, NULL);
   for (uint32_t i = 0; good && i < characters; i++) {
     all->group_of[i] = UINT32_MAX;
     if (world->characters[i].model) good = sbri_contact_surfaces_create(world, i);

@@ -159,8 +159,8 @@ uint64_t sbr_world_get_state_hash(const sbr_world *world) {
         (l->used_size - l->solids.blocks) / sizeof(uint32_t));
     if (c->model->detail.base->detail.level_count > 1) hash_detail_level(&hash, c);
   }
-  for (uint32_t i = 0; world->body_contacts && i < world->body_contacts->cached_count; i++) {
-    const sbri_cached_contact *m = &world->body_contacts->cached[i];
+  for (uint32_t i = 0; world->body_contacts && i < world->body_contacts->cache.count; i++) {
+    const sbri_cached_contact *m = &world->body_contacts->cache.at[i];
     sbfi_hash64_add_u64(&hash, m->body_ids, 2);
     sbfi_hash64_add_u32(&hash, &m->feature, 1);
     sbfi_hash64_add_f32(&hash, &m->local_point.x, 3);

@@ -64,8 +64,8 @@ static void draw_body_contacts(const sbr_world *world, const sbr_debug_draw *dra
     const sbri_debug_lines to = {draw, group->origin, 1};
     for (uint32_t i = 0; i < group->contact_count; i++) {
       const sbri_contact *contact = &all->contacts[group->first_contact + i];
-      if (contact->tick_impulse > 0)
-        sbri_draw_contact(&to, contact->event_position, contact->normal, contact->tick_impulse);
+      if (contact->tick.impulse > 0)
+        sbri_draw_contact(&to, contact->tick.position, contact->normal, contact->tick.impulse);
     }
   }
 }

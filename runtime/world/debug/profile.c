@@ -50,6 +50,6 @@ sbr_counters sbr_world_get_counters(const sbr_world *world) {
   }
   for (uint32_t i = 0; i < world->colliders.capacity; i++)
     to.collider_count += world->colliders.at[i].shape != NULL;
-  if (world->body_contacts) to.body_contact_count = world->body_contacts->touching_count;
+  if (world->body_contacts) to.body_contact_count = world->body_contacts->pair_reports.count;
   return to;
 }

@@ -140,14 +140,14 @@ static void check_body_contacts(checking *k) {
   const sbri_body_contacts *all = k->world->body_contacts;
   if (!all) return;
   enter(k, "contacts of bodies", 0);
-  expect(k, all->cached_count <= all->contact_capacity, "more impulses are stored than the capacity");
-  expect(k, all->touching_count <= all->contact_capacity, "more pairs touch than the capacity");
-  for (uint32_t i = 1; i < all->touching_count; i++)
-    expect(k, is_before(all->touching[i - 1].body_ids, all->touching[i].body_ids),
+  expect(k, all->cache.count <= all->contact_capacity, "more impulses are stored than the capacity");
+  expect(k, all->pair_reports.count <= all->contact_capacity, "more pairs touch than the capacity");
+  for (uint32_t i = 1; i < all->pair_reports.count; i++)
+    expect(k, is_before(all->pair_reports.at[i - 1].body_ids, all->pair_reports.at[i].body_ids),
         "pairs are not in ascending order");
-  for (uint32_t i = 0; i < all->cached_count; i++) {
-    const sbri_cached_contact *cached = &all->cached[i];
-    expect(k, cached->next == UINT32_MAX || (cached->next > i && cached->next < all->cached_count),
+  for (uint32_t i = 0; i < all->cache.count; i++) {
+    const sbri_cached_contact *cached = &all->cache.at[i];
+    expect(k, cached->next == UINT32_MAX || (cached->next > i && cached->next < all->cache.count),
         "the list of stored impulses of two bodies does not end");
     expect(k, isfinite(cached->normal_force) && is_finite(cached->friction_force),
         "a stored impulse is not finite");
