@@ -264,7 +264,7 @@ typedef struct twin {
   double s;
 } twin;
 
-static void *run_twin(void *context) {
+static void *run_again(void *context) {
   twin *t = context;
   t->s = run_method(t->scene, &t->method, NULL);
   return NULL;
@@ -274,8 +274,8 @@ static void *run_twin(void *context) {
 static double time_two(const scene *s, const method *w) {
   twin twins[2] = {{s, *w, 0}, {s, *w, 0}};
   pthread_t other;
-  if (pthread_create(&other, NULL, run_twin, &twins[1]) != 0) bench_fail("no thread");
-  run_twin(&twins[0]);
+  if (pthread_create(&other, NULL, run_again, &twins[1]) != 0) bench_fail("no thread");
+  run_again(&twins[0]);
   pthread_join(other, NULL);
   return 1e6 * (twins[0].s > twins[1].s ? twins[0].s : twins[1].s);
 }
@@ -347,10 +347,10 @@ static void measure(const char *name, sbf_asset *asset, uint32_t ticks, bool qui
       if (round == 0 || us < w->us) w->us = us;
     }
   for (uint32_t i = 0; i < count; i++) {
-    bool theirs = strcmp(methods[i].engine, "sbrun") != 0;
-    const method *ours = theirs ? cheapest_ours(methods, count, methods[i].error_mm) : NULL;
+    bool peer = strcmp(methods[i].engine, "sbrun") != 0;
+    const method *ours = peer ? cheapest_ours(methods, count, methods[i].error_mm) : NULL;
     print_method(&s, &methods[i], 1, methods[i].us, ours);
-    if (i == 0 || (theirs && methods[i].iterations == 10) || (theirs && solid && methods[i].steps == 1))
+    if (i == 0 || (peer && methods[i].iterations == 10) || (peer && solid && methods[i].steps == 1))
       print_method(&s, &methods[i], 2, time_two(&s, &methods[i]), NULL);
   }
   free(track);

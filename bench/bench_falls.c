@@ -181,7 +181,7 @@ static void measure_ragdolls(bool quick) {
     bool coarse, undamped;
   } ours[] = {{0, false, false}, {2, false, false}, {1, false, false}, {0, true, false}, {0, false, true},
       {0, true, true}};
-  static const int theirs[][2] = {{1, 10}, {1, 50}, {4, 10}, {8, 10}};
+  static const int peer[][2] = {{1, 10}, {1, 50}, {4, 10}, {8, 10}};
   sbf_asset *asset = ragdoll_asset();
   sbf_diagnostic error;
   int rounds = (int)bench_round_count(5), ticks = quick ? 90 : RAGDOLL_TICKS;
@@ -205,16 +205,16 @@ static void measure_ragdolls(bool quick) {
     sbr_model_destroy(model);
   }
 #ifdef BENCH_BULLET
-  for (size_t k = 0; measures_bullet(quick) && k < sizeof theirs / sizeof *theirs; k++) {
+  for (size_t k = 0; measures_bullet(quick) && k < sizeof peer / sizeof *peer; k++) {
     fall best = {0};
     for (int r = 0; r < rounds; r++) {
-      fall f = bullets_ragdoll(theirs[k][0], theirs[k][1], ticks);
+      fall f = bullets_ragdoll(peer[k][0], peer[k][1], ticks);
       keep_min(&best, &f, r == 0);
     }
-    print_ragdoll("Bullet", "sequential impulses", theirs[k][0], theirs[k][1], &best);
+    print_ragdoll("Bullet", "sequential impulses", peer[k][0], peer[k][1], &best);
   }
 #else
-  (void)theirs;
+  (void)peer;
 #endif
   sbf_asset_free(asset);
 }
@@ -375,14 +375,14 @@ static void measure_cloths(bool quick) {
   for (uint32_t steps = 20; steps <= (quick ? 20 : 80); steps *= 2)
     measure_our_cloth(&c, "position-based", SBF_SCHEME_POSITION_BASED, steps, rounds, points);
 #ifdef BENCH_BULLET
-  static const uint32_t theirs[][2] = {{1, 10}, {4, 10}, {8, 10}, {16, 10}};
-  for (size_t k = 0; measures_bullet(quick) && k < (quick ? 1 : sizeof theirs / sizeof *theirs); k++) {
+  static const uint32_t peer[][2] = {{1, 10}, {4, 10}, {8, 10}, {16, 10}};
+  for (size_t k = 0; measures_bullet(quick) && k < (quick ? 1 : sizeof peer / sizeof *peer); k++) {
     fall best = {0};
     for (int r = 0; r < rounds; r++) {
-      fall f = bullets_cloth(&c, theirs[k][0], theirs[k][1], points);
+      fall f = bullets_cloth(&c, peer[k][0], peer[k][1], points);
       keep_min(&best, &f, r == 0);
     }
-    print_cloth(&c, "Bullet", "links", theirs[k][0], theirs[k][1], &best);
+    print_cloth(&c, "Bullet", "links", peer[k][0], peer[k][1], &best);
   }
 #endif
   free(points);

@@ -9,30 +9,30 @@
 
 enum { LEVELS = 4, CALLS = 50 };
 
-typedef struct wearer {
+typedef struct clothed {
   sbf_asset *asset;
   sbr_model *model;
   sbr_world *world;
   sbr_character_id character;
   sbf_vec3 *buffer; /* positions, then normals */
   uint32_t vertex_count;
-} wearer;
+} clothed;
 
 typedef struct skin_case {
-  const wearer *of;
+  const clothed *of;
   uint32_t level;
 } skin_case;
 
 static void run(void *context) {
   const skin_case *c = context;
-  const wearer *w = c->of;
+  const clothed *w = c->of;
   for (int call = 0; call < CALLS; call++)
     for (uint32_t m = 0; m < w->asset->render_meshes.count; m++)
       sbr_character_get_level_skin(
           w->world, w->character, m, c->level, w->buffer, w->buffer + w->vertex_count, NULL, w->vertex_count);
 }
 
-static void dress(wearer *w, sbf_asset *source) {
+static void clothe(clothed *w, sbf_asset *source) {
   const sbf_build_options options = {.render_levels = LEVELS};
   sbf_diagnostic error;
   sbr_world_definition world = sbr_default_world_definition();
@@ -48,10 +48,10 @@ static void dress(wearer *w, sbf_asset *source) {
 }
 
 static void measure(const char *name, sbf_asset *source, uint32_t rounds) {
-  wearer w;
+  clothed w;
   skin_case contexts[LEVELS + 1];
   bench_case cases[LEVELS + 1];
-  dress(&w, source);
+  clothe(&w, source);
   uint32_t levels = w.asset->render_meshes.at[0].levels.count;
   for (uint32_t l = 0; l <= levels; l++) {
     contexts[l] = (skin_case){&w, l};

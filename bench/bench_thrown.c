@@ -87,7 +87,7 @@ static void check(const scene *s, shape *to) {
 }
 
 /* Mean place of the skin that is near a place at rest. */
-static sbf_vec3 carried(const scene *s, const shape *now, sbf_vec3 at) {
+static sbf_vec3 attached(const scene *s, const shape *now, sbf_vec3 at) {
   sbf_vec3 sum = {0, 0, 0};
   float count = 0;
   for (uint32_t i = 0; i < now->count; i++) {
@@ -103,7 +103,7 @@ static sbf_vec3 carried(const scene *s, const shape *now, sbf_vec3 at) {
 static sbf_vec3 marked(const scene *s, const shape *now, int mark) {
   sbf_vec3 at = marks[mark < 0 ? -mark : mark];
   if (mark < 0) at.x = -at.x;
-  return carried(s, now, at);
+  return attached(s, now, at);
 }
 
 static float angle_of(const scene *s, const shape *now, const int at[3]) {
@@ -152,7 +152,7 @@ static sbr_character_id throw_ball(const scene *s, sbf_vec3 aim) {
 static void throw_and_note(const scene *s, int number, const shape *before, result *r) {
   static shape now;
   check(s, &now);
-  sbr_character_id ball = throw_ball(s, carried(s, &now, targets[number]));
+  sbr_character_id ball = throw_ball(s, attached(s, &now, targets[number]));
   for (int i = 0; i < EVERY; i++) {
     sbr_world_tick(s->world);
     check(s, &now);
@@ -230,7 +230,7 @@ static double frames_a_second(
     for (uint32_t k = 0; k < figures && i % EVERY == 0; k++) {
       if (i > 0) sbr_character_destroy(world, balls[k]);
       check(&s[k], &now);
-      balls[k] = throw_ball(&s[k], carried(&s[k], &now, targets[i / EVERY % BALLS]));
+      balls[k] = throw_ball(&s[k], attached(&s[k], &now, targets[i / EVERY % BALLS]));
     }
     double begin = bench_now_s();
     sbr_world_tick(world);
@@ -333,7 +333,7 @@ static void draw_throw(const char *name, const char *folder) {
   hang_at_rest(&s, model, 0, &rest);
   for (int i = 0; i < SETTLES; i++) sbr_world_tick(s.world);
   check(&s, &now);
-  sbr_character_id thrown = throw_ball(&s, carried(&s, &now, targets[4]));
+  sbr_character_id thrown = throw_ball(&s, attached(&s, &now, targets[4]));
   for (int i = 0, next = 0; next < MOMENTS; i++) {
     sbr_world_tick(s.world);
     if (i != moments[next]) continue;

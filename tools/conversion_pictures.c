@@ -221,16 +221,16 @@ static const struct {
     {"bones", "Bones", "The skeleton at rest.", add_bones},
 };
 
-typedef struct easel {
+typedef struct page_canvas {
   draw_canvas *canvas;
   draw_painter *painter;
   draw_scene *scene;
   uint8_t *rgb;
   skin_images images;
   char *notes; /* images that are not drawn, one sentence each after a blank; NULL: none */
-} easel;
+} page_canvas;
 
-static sbf_status open_easel(easel *e, sbf_diagnostic *error) {
+static sbf_status open_canvas(page_canvas *e, sbf_diagnostic *error) {
   sbf_status status = draw_canvas_open(&e->canvas, WIDTH, HEIGHT, DRAW_CANVAS_STILL, error);
   if (status == SBF_OK) status = draw_painter_create(&e->painter, e->canvas, error);
   if (status != SBF_OK) return status;
@@ -241,7 +241,7 @@ static sbf_status open_easel(easel *e, sbf_diagnostic *error) {
   return SBF_FAILED;
 }
 
-static void close_easel(easel *e) {
+static void close_canvas(page_canvas *e) {
   if (e->scene) draw_scene_destroy(e->scene);
   draw_painter_destroy(e->painter);
   draw_canvas_close(e->canvas);
@@ -251,7 +251,7 @@ static void close_easel(easel *e) {
 }
 
 /* Flat objects are seen from well above, with a floor below them. */
-static sbf_status paint(easel *e, sbf_diagnostic *error) {
+static sbf_status paint(page_canvas *e, sbf_diagnostic *error) {
   draw_camera camera;
   box3 box = draw_scene_bounds(e->scene);
   float width = fmaxf(box.max.x - box.min.x, box.max.z - box.min.z);
@@ -281,7 +281,7 @@ static char *base64_of(const uint8_t *bytes, size_t size) {
 }
 
 /* The first view shows the skin. */
-static bool append(json_t *list, const easel *e, size_t view, const uint8_t *png, size_t size) {
+static bool append(json_t *list, const page_canvas *e, size_t view, const uint8_t *png, size_t size) {
   char *text = base64_of(png, size);
   json_t *one =
       text ? json_pack("{s:s, s:s, s:s+, s:i, s:i, s:s}", "name", views[view].name, "title",
@@ -294,7 +294,7 @@ static bool append(json_t *list, const easel *e, size_t view, const uint8_t *png
 
 /* If memory runs out, the note is lost but not the picture. */
 static void store_note(void *user, const sbf_diagnostic *note) {
-  easel *e = user;
+  page_canvas *e = user;
   size_t before = e->notes ? strlen(e->notes) : 0, more = strlen(note->message) + 3;
   char *grown = realloc(e->notes, before + more);
   if (!grown) return;
@@ -304,9 +304,9 @@ static void store_note(void *user, const sbf_diagnostic *note) {
 }
 
 bool conversion_pictures_draw(const sbf_asset *asset, const char *file, json_t *list, char **why) {
-  easel e = {.canvas = NULL};
+  page_canvas e = {.canvas = NULL};
   sbf_diagnostic error = {.code = 0};
-  sbf_status status = open_easel(&e, &error);
+  sbf_status status = open_canvas(&e, &error);
   bool good = true;
   subject of = {asset, &e.images};
   if (status == SBF_OK) skin_images_load(&e.images, asset, file, store_note, &e);
@@ -320,7 +320,7 @@ bool conversion_pictures_draw(const sbf_asset *asset, const char *file, json_t *
     if (status == SBF_OK) good = append(list, &e, i, png, size);
     free(png);
   }
-  close_easel(&e);
+  close_canvas(&e);
   *why = status == SBF_OK ? NULL : strdup(error.message);
   return good && (status == SBF_OK || *why);
 }

@@ -8,8 +8,8 @@
 #include "render/fault.h"
 #include "sbfmt/mechanics.h"
 #include "sbrun/detail.h"
+#include "tune/comparison.h"
 #include "tune/decimated_skin.h"
-#include "tune/yardstick.h"
 
 /* Coarsest first; the last is the reference of all. */
 static const uint32_t sizes[] = {40, 80, 160};
@@ -95,9 +95,10 @@ static void take(section_budget *choice, const candidate *c, double size_m) {
 
 /* Evaluates one number of elements; `*best` is the better of the two. */
 static sbf_status try_one(const sbf_asset *built, double visits, uint32_t elements,
-    const tune_yardstick *yard, candidate *best, sbf_diagnostic *error) {
+    const tune_comparison *comparison, candidate *best, sbf_diagnostic *error) {
   candidate c = {.elements = elements, .visits = visits};
-  sbf_status status = tune_yardstick_hold(yard, built, &(chart_setting){.level = 0}, NULL, &c.is, error);
+  sbf_status status =
+      tune_comparison_measure(comparison, built, &(chart_setting){.level = 0}, NULL, &c.is, error);
   if (status == SBF_OK && is_better(&c, best)) *best = c;
   return status;
 }
@@ -107,7 +108,7 @@ static sbf_status try_one(const sbf_asset *built, double visits, uint32_t elemen
 static sbf_status choose(
     const sbf_asset *source, const sbf_build_options *build, section_budget *choice, sbf_diagnostic *error) {
   sbf_asset *finest = NULL;
-  tune_yardstick yard = {.rest = NULL};
+  tune_comparison comparison = {.rest = NULL};
   candidate best = {.elements = 0};
   const tune_measure measure = {.by = TUNE_BY_P99, .may_be_empty = true, .once = true};
   sbf_status status = SBF_OK;
@@ -119,14 +120,14 @@ static sbf_status choose(
     bool may = visits <= choice->max_visits && built->soft_bodies.count;
     if (may && !finest) {
       status = build_one(source, build, FINEST, &finest, error);
-      if (status == SBF_OK) status = tune_yardstick_make(&yard, finest, &measure, error);
+      if (status == SBF_OK) status = tune_comparison_create(&comparison, finest, &measure, error);
     }
-    if (status == SBF_OK && may) status = try_one(built, visits, sizes[i], &yard, &best, error);
-    if (status == SBF_OK && best.elements) take(choice, &best, yard.size_m);
+    if (status == SBF_OK && may) status = try_one(built, visits, sizes[i], &comparison, &best, error);
+    if (status == SBF_OK && best.elements) take(choice, &best, comparison.size_m);
     sbf_asset_free(built);
     if (!may) break; /* finer ones cost more */
   }
-  tune_yardstick_free(&yard);
+  tune_comparison_free(&comparison);
   sbf_asset_free(finest);
   return status;
 }

@@ -72,7 +72,7 @@ static sbf_status out_of_memory(sbf_diagnostic *error) {
   return SBF_FAILED;
 }
 
-sbf_status studio_dress(studio *st, sbf_diagnostic *error) {
+sbf_status studio_set_appearance(studio *st, sbf_diagnostic *error) {
   /* A transparent skin has colours only. */
   if (!st->has_images && !(st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET))) {
     skin_images_load(&st->images, st->s.asset, st->call->inputs[0], cli_report, st->call);
@@ -96,7 +96,7 @@ sbf_status studio_open(studio *st, cli_call *call, draw_canvas *canvas, sbf_diag
   sbf_status status = draw_painter_create(&st->painter, st->canvas, error);
   if (status != SBF_OK) return status;
   if (!(st->scene = draw_scene_create())) return out_of_memory(error);
-  return studio_dress(st, error);
+  return studio_set_appearance(st, error);
 }
 
 void studio_close(studio *st) {

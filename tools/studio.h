@@ -42,7 +42,7 @@ bool studio_size(cli_call *call, uint32_t *width, uint32_t *height);
 sbf_status studio_open(studio *st, cli_call *call, draw_canvas *canvas, sbf_diagnostic *error);
 /* Rebuilds the scene: after the session was recreated, or to show other parts (st->show) or another render
  * level. */
-sbf_status studio_dress(studio *st, sbf_diagnostic *error);
+sbf_status studio_set_appearance(studio *st, sbf_diagnostic *error);
 /* Of the canvas. */
 float studio_aspect(const studio *st);
 void studio_close(studio *st); /* the session too */

@@ -31,7 +31,7 @@ void tuning_describe_unmet(const tuning *t, char text[TUNING_TEXT]) {
         "nothing that was tried has an error within %s: the most accurate has %s (%s), of which %.2g m is "
         "the error of the reference: allow %.3g m or more, or try finer lattices with --elements and "
         "--reference",
-        asked, is, how, tune_distance_by(&t->yard.own, t->by), error * 1.01);
+        asked, is, how, tune_distance_by(&t->comparison.own, t->by), error * 1.01);
   else if (t->verdict == TUNE_TOO_CHEAP)
     snprintf(text, TUNING_TEXT,
         "nothing that was tried takes less than %.4g us a tick on this machine: the cheapest takes %.4g us "
@@ -63,30 +63,32 @@ static void print_harsher(const tuning *t) {
       v->off.rms_m, v->off.p99_m, v->off.max_m, v->worst ? v->worst : "nothing measured");
 }
 
-static void print_unmeasured(const tune_yardstick *yard, const char *when) {
+static void print_unmeasured(const tune_comparison *comparison, const char *when) {
   for (int i = 0; i < CHART_BUNDLE_CASES; i++)
-    if (yard->unmeasured[i][0])
-      printf("not measured%s: its %s, where %s\n", when, yard->cases[i].name, yard->unmeasured[i]);
+    if (comparison->unmeasured[i][0])
+      printf(
+          "not measured%s: its %s, where %s\n", when, comparison->cases[i].name, comparison->unmeasured[i]);
 }
 
 void tuning_print(const tuning *t) {
-  uint32_t failed = 0, refused = 0, dearer = 0;
+  uint32_t failed = 0, refused = 0, costlier = 0;
   for (uint32_t i = 0; i < t->trials.count; i++) {
     const tune_trial *trial = &t->trials.at[i];
-    failed += !trial->refused && !trial->dearer && !trial->error.sound;
-    refused += trial->refused, dearer += trial->dearer;
+    failed += !trial->refused && !trial->costlier && !trial->error.sound;
+    refused += trial->refused, costlier += trial->costlier;
   }
   if (t->meshes.nothing_is_soft) {
     printf("nothing is soft: the skin follows its bones exactly\nwrote %s unchanged\n", t->out);
     return;
   }
   printf("tried %u settings, of which %u failed and %u were refused; %u are on the front of cost and error",
-      (unsigned)(t->trials.count - dearer), (unsigned)failed, (unsigned)refused,
+      (unsigned)(t->trials.count - costlier), (unsigned)failed, (unsigned)refused,
       (unsigned)t->trials.front_count);
-  if (dearer) printf("; %u that cost more were not tried", (unsigned)dearer);
+  if (costlier) printf("; %u that cost more were not tried", (unsigned)costlier);
   printf("\nmeasured against %s of %u elements; by its steps that is off by %.1e m (RMS), %.1e m at most\n",
-      t->meshes.reference.name, (unsigned)t->meshes.reference.elements, t->yard.own.rms_m, t->yard.own.max_m);
-  print_unmeasured(&t->yard, "");
+      t->meshes.reference.name, (unsigned)t->meshes.reference.elements, t->comparison.own.rms_m,
+      t->comparison.own.max_m);
+  print_unmeasured(&t->comparison, "");
   if (t->meshes.note[0]) printf("no lattices were tried: %s\n", t->meshes.note);
   for (uint32_t i = 0; i < t->level_count; i++) print_level(t, i);
   print_harsher(t);
@@ -112,7 +114,7 @@ static json_t *trial_json(const tuning *t, const tune_trial *trial) {
       (int)mesh->elements, "calibrated", (int)mesh->calibrated, "scheme",
       sbf_scheme_name(trial->setting.scheme), "substeps", (int)trial->setting.substeps, "outcome",
       trial->refused        ? "refused"
-      : trial->dearer       ? "dearer"
+      : trial->costlier     ? "dearer"
       : !trial->error.sound ? "failed"
       : trial->error.beaten ? "beaten"
                             : "sound",
@@ -120,7 +122,7 @@ static json_t *trial_json(const tuning *t, const tune_trial *trial) {
   json_object_set_new(object, "visits", trial->refused ? json_null() : number(trial->visits));
   json_object_set_new(object, "element_visits", trial->refused ? json_null() : number(trial->element_visits));
   json_object_set_new(object, "us_per_tick", trial->on_front ? number(trial->us.median) : json_null());
-  json_object_set_new(object, "error", trial->dearer ? json_null() : error_json(&trial->error));
+  json_object_set_new(object, "error", trial->costlier ? json_null() : error_json(&trial->error));
   json_object_set_new(object, "verified", trial->driven_harder ? error_json(&trial->other) : json_null());
   return object;
 }
@@ -133,11 +135,11 @@ static json_t *level_json(const tuning *t, uint32_t number_of) {
   return object;
 }
 
-static json_t *motions_json(const tune_yardstick *yard) {
+static json_t *motions_json(const tune_comparison *comparison) {
   json_t *list = json_array();
-  for (int i = 0; i < CHART_BUNDLE_CASES && yard->cases[i].name; i++)
-    json_array_append_new(list, json_pack("{s:s, s:b, s:s}", "name", yard->cases[i].name, "measured",
-                                    (int)!yard->unmeasured[i][0], "why", yard->unmeasured[i]));
+  for (int i = 0; i < CHART_BUNDLE_CASES && comparison->cases[i].name; i++)
+    json_array_append_new(list, json_pack("{s:s, s:b, s:s}", "name", comparison->cases[i].name, "measured",
+                                    (int)!comparison->unmeasured[i][0], "why", comparison->unmeasured[i]));
   return list;
 }
 
@@ -160,8 +162,8 @@ json_t *tuning_json(const tuning *t) {
   json_object_set_new(object, "budget_asked_us", asked(t->goal.budget_us));
   json_object_set_new(object, "reference",
       json_pack("{s:s, s:i, s:f, s:f, s:o}", "model", t->meshes.reference.name, "elements",
-          (int)t->meshes.reference.elements, "rms_m", t->yard.own.rms_m, "most_m", t->yard.own.max_m,
-          "motions", motions_json(&t->yard)));
+          (int)t->meshes.reference.elements, "rms_m", t->comparison.own.rms_m, "most_m",
+          t->comparison.own.max_m, "motions", motions_json(&t->comparison)));
   json_object_set_new(
       object, "nearest", t->trials.front_count ? trial_json(t, on_front(t, t->chosen)) : json_null());
   json_object_set_new(object, "trials", trials);

@@ -15,7 +15,7 @@ typedef struct tuning {
   tune_by by;
   bool written;
   tune_meshes meshes;
-  tune_yardstick yard, other; /* for the usual and a harsher drive */
+  tune_comparison comparison, other; /* for the usual and a harsher drive */
   tune_trials trials;
   tune_verdict verdict;
   uint32_t chosen; /* index on the front */

@@ -109,7 +109,7 @@ static sbf_status announce(const cli_call *call, const tuning *t, sbf_diagnostic
   return SBF_OK;
 }
 
-static sbf_status make_yardsticks(tuning *t, sbf_diagnostic *error) {
+static sbf_status create_comparisons(tuning *t, sbf_diagnostic *error) {
   static char of_this[] = "reference", of_other[] = "harsher drive";
   const tune_measure measure = {.by = t->by, .progress = show_reference, .user = of_this};
   const tune_measure harsher = {.drive = &tune_harsher_drive,
@@ -117,12 +117,13 @@ static sbf_status make_yardsticks(tuning *t, sbf_diagnostic *error) {
       .may_be_empty = true,
       .progress = show_reference,
       .user = of_other};
-  sbf_status status = tune_yardstick_make(&t->yard, t->meshes.reference.asset, &measure, error);
+  sbf_status status = tune_comparison_create(&t->comparison, t->meshes.reference.asset, &measure, error);
   if (status != SBF_OK && error->code == SBF_CODE_BAD_CALL && tune_meshes_trust_own(&t->meshes)) {
-    tune_yardstick_free(&t->yard);
-    status = tune_yardstick_make(&t->yard, t->meshes.reference.asset, &measure, error);
+    tune_comparison_free(&t->comparison);
+    status = tune_comparison_create(&t->comparison, t->meshes.reference.asset, &measure, error);
   }
-  if (status == SBF_OK) status = tune_yardstick_make(&t->other, t->meshes.reference.asset, &harsher, error);
+  if (status == SBF_OK)
+    status = tune_comparison_create(&t->other, t->meshes.reference.asset, &harsher, error);
   return status;
 }
 
@@ -139,9 +140,9 @@ static sbf_status sweep(cli_call *call, tuning *t, request *r, sbf_diagnostic *e
   r->effort.enough_m = t->goal.budget_us > 0 ? 0 : t->goal.error_m;
   status = tune_trials_plan(&t->meshes, &r->effort, &t->trials, error);
   if (status == SBF_OK) status = announce(call, t, error);
-  if (status == SBF_OK) status = make_yardsticks(t, error);
+  if (status == SBF_OK) status = create_comparisons(t, error);
   if (status == SBF_OK)
-    status = tune_trials_run(&t->meshes, &t->yard, &t->other, &r->effort, &t->trials, error);
+    status = tune_trials_run(&t->meshes, &t->comparison, &t->other, &r->effort, &t->trials, error);
   return status;
 }
 
@@ -241,8 +242,8 @@ static int run(cli_call *call) {
       cli_print_diagnostic(call, &error);
   }
   tune_trials_free(&t->trials);
-  tune_yardstick_free(&t->yard);
-  tune_yardstick_free(&t->other);
+  tune_comparison_free(&t->comparison);
+  tune_comparison_free(&t->other);
   tune_meshes_free(&t->meshes);
   free(t);
   return status;

@@ -34,7 +34,7 @@ static inline double sbfi_spring_energy(const sbfi_spring *s, double length_m) {
 
 /* Factor on the vector from end a to end b that gives the force on a, which is minus that on b. 0 for a
  * spring of length 0. */
-static inline float sbfi_spring_pull(const sbfi_spring *s, float length_m) {
+static inline float sbfi_spring_force_factor(const sbfi_spring *s, float length_m) {
   float k = sbfi_spring_stiffness(s, length_m);
   return length_m > 0 ? k - k * s->rest_length_m / length_m : 0;
 }

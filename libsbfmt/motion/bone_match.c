@@ -230,8 +230,8 @@ static void name_parts_by_chains(const sbf_asset *to, sbfi_bone_match *matches) 
       sbfi_bone_match *match = &matches[bones.at[upper + k]];
       if (match->part == SBFI_PART_OTHER) match->part = parts[k];
     }
-    int32_t girdle = to->bones.at[bones.at[0]].parent;
-    if (leg && girdle != SBF_NONE && !has_hips(to, matches)) matches[girdle].part = SBFI_PART_HIPS;
+    int32_t limb_root = to->bones.at[bones.at[0]].parent;
+    if (leg && limb_root != SBF_NONE && !has_hips(to, matches)) matches[limb_root].part = SBFI_PART_HIPS;
   }
 }
 

@@ -25,12 +25,12 @@ typedef struct motion {
   sbfi_bone_frame *rest;                   /* of the asset */
   double (*aligned)[4];                    /* (bones) S0^-1 A T0 of each matched bone: S times this is T */
   double (*align)[4];                      /* (bones) A */
-  int32_t traveller;                       /* the bone that also translates */
+  int32_t translated_bone;                 /* the bone that also translates */
   int32_t leader;                          /* the source's bone that it follows */
   double ratio;                            /* scale of translations */
   int32_t pivots[PIVOTS], leaders[PIVOTS]; /* bones whose centre is moved, in the target and in the source */
   uint32_t pivot_count;
-  double pivot[3], arm[3]; /* rest position of that centre, in asset space and in the traveller's frame */
+  double pivot[3], arm[3]; /* rest position of that centre, in asset space and in that bone's frame */
   float *times;            /* of the current clip */
   uint32_t time_count;
   sbfi_reporter *reporter;
@@ -105,9 +105,9 @@ static void middle_of(const sbfi_bone_frame *frames, const int32_t *bones, uint3
 
 /* The hips translate, or else the root above matched bones. The tracked point is the centre between the
  * thighs if they exist, because the head of the translating bone may be anywhere. */
-static void find_traveller(motion *m, const sbfi_bone_frame *from_rest) {
+static void find_translated_bone(motion *m, const sbfi_bone_frame *from_rest) {
   double here = lowest(m->to, m->rest), there = lowest(m->from, from_rest), own[3], other[3];
-  m->traveller = SBF_NONE;
+  m->translated_bone = SBF_NONE;
   for (int32_t i = (int32_t)m->to->bones.count; i-- > 0;) {
     const sbfi_bone_match *match = &m->matches[i];
     if (match->source == SBF_NONE) continue;
@@ -115,18 +115,18 @@ static void find_traveller(motion *m, const sbfi_bone_frame *from_rest) {
       m->pivots[m->pivot_count] = i;
       m->leaders[m->pivot_count++] = match->source;
     }
-    if (m->traveller == SBF_NONE || m->matches[m->traveller].part != SBFI_PART_HIPS ||
+    if (m->translated_bone == SBF_NONE || m->matches[m->translated_bone].part != SBFI_PART_HIPS ||
         match->part == SBFI_PART_HIPS)
-      m->traveller = i;
+      m->translated_bone = i;
   }
-  m->leader = m->matches[m->traveller].source;
-  if (m->matches[m->traveller].part != SBFI_PART_HIPS) {
-    while (m->to->bones.at[m->traveller].parent != SBF_NONE)
-      m->traveller = m->to->bones.at[m->traveller].parent;
+  m->leader = m->matches[m->translated_bone].source;
+  if (m->matches[m->translated_bone].part != SBFI_PART_HIPS) {
+    while (m->to->bones.at[m->translated_bone].parent != SBF_NONE)
+      m->translated_bone = m->to->bones.at[m->translated_bone].parent;
     while (m->from->bones.at[m->leader].parent != SBF_NONE) m->leader = m->from->bones.at[m->leader].parent;
   }
   if (m->pivot_count == 0) {
-    m->pivots[0] = m->traveller;
+    m->pivots[0] = m->translated_bone;
     m->leaders[m->pivot_count++] = m->leader;
   }
   middle_of(m->rest, m->pivots, m->pivot_count, own);
@@ -135,9 +135,9 @@ static void find_traveller(motion *m, const sbfi_bone_frame *from_rest) {
   double inverse[4];
   for (int k = 0; k < 3; k++) {
     m->pivot[k] = own[k];
-    m->arm[k] = own[k] - m->rest[m->traveller].position[k];
+    m->arm[k] = own[k] - m->rest[m->translated_bone].position[k];
   }
-  sbfi_quatd_conjugate(m->rest[m->traveller].rotation, inverse);
+  sbfi_quatd_conjugate(m->rest[m->translated_bone].rotation, inverse);
   sbfi_quatd_rotate(inverse, m->arm, m->arm);
 }
 
@@ -159,7 +159,7 @@ static sbf_status prepare(motion *m) {
   sbfi_compute_rest_frames(m->to, m->rest);
   sbfi_compute_rest_frames(m->from, from_rest);
   align_bones(m, from_rest);
-  find_traveller(m, from_rest);
+  find_translated_bone(m, from_rest);
   return SBF_OK;
 }
 
@@ -254,7 +254,7 @@ static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_fra
       sbfi_quatd_multiply(inverse, f->rotation, local);
       put_rotation(keys[i].rotations + 4 * (size_t)key, local, key == 0);
     }
-    if ((int32_t)i != m->traveller) continue;
+    if ((int32_t)i != m->translated_bone) continue;
     double direction[3], arm[3], within[3];
     middle_of(source, m->leaders, m->pivot_count, direction);
     sbfi_quatd_rotate(f->rotation, m->arm, arm);
@@ -306,7 +306,7 @@ static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena 
       !sbfi_clip_poses_init(&here, m->to, &still, scratch))
     return false;
   for (uint32_t i = 0; i < bone_count; i++) {
-    bool follows = m->matches[i].source != SBF_NONE, travels = (int32_t)i == m->traveller;
+    bool follows = m->matches[i].source != SBF_NONE, travels = (int32_t)i == m->translated_bone;
     matched += follows;
     if (follows) keys[i].rotations = sbfi_arena_allocate(scratch, m->time_count, 4 * sizeof(float));
     if (travels) keys[i].positions = sbfi_arena_allocate(scratch, m->time_count, 3 * sizeof(float));
@@ -334,7 +334,7 @@ static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena 
   to->tracks = (sbf_track_list){tracks, count};
   report_finding(m, SBF_CODE_IMPORT_MOTION,
       "clip '%s', %.2f s: %u bones were transferred, '%s' travels %.3g times as far as '%s'", to->name,
-      (double)to->duration, matched, m->to->bones.at[m->traveller].name, m->ratio,
+      (double)to->duration, matched, m->to->bones.at[m->translated_bone].name, m->ratio,
       m->from->bones.at[m->leader].name);
   return true;
 }

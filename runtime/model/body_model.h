@@ -111,7 +111,7 @@ typedef struct sbri_body_volume {
   const sbri_volume_cell *cells;          /* faces, as `slots`, with their weights in each slot's gradient */
   const sbri_face_weight *pinned_weights; /* (pinned_weight_count) the same for pinned points */
   uint32_t pinned_weight_count;
-  int32_t carrier; /* the rigid body that these, or the island, are pinned to; -1: none */
+  int32_t attachment; /* the rigid body that these, or the island, are pinned to; -1: none */
 } sbri_body_volume;
 
 typedef struct sbri_body {

@@ -7,9 +7,9 @@
 /* Eight springs, one per point of a block, as seen from that point. Padding lanes name the point itself and
  * contain zeros. */
 typedef struct sbri_spring_cell {
-  uint32_t others[SBRI_BLOCK]; /* slot of the other end */
-  float stiffness[SBRI_BLOCK]; /* N/m */
-  float pull[SBRI_BLOCK];      /* stiffness times rest length, N */
+  uint32_t others[SBRI_BLOCK];  /* slot of the other end */
+  float stiffness[SBRI_BLOCK];  /* N/m */
+  float rest_force[SBRI_BLOCK]; /* stiffness times rest length, N */
 } sbri_spring_cell;
 
 /* Eight springs of which no two share a free point, for iteration over springs with SIMD. Padding lanes have

@@ -75,9 +75,9 @@ typedef struct sbri_island_links {
 typedef struct sbri_island_pins {
   const uint32_t *frames;      /* (pinned slots) */
   const sbri_pin_of *sets;     /* (pinned slots) */
-  const int32_t *rigid_bodies; /* (pinned slots) of model.carrier_of_frame */
-  const uint32_t *carriers;    /* (carrier_count) rigid bodies that it is pinned to */
-  uint32_t carrier_count;
+  const int32_t *rigid_bodies; /* (pinned slots) of model.rigid_body_of_frame */
+  const uint32_t *attachments; /* (attachment_count) rigid bodies that it is pinned to */
+  uint32_t attachment_count;
   const sbri_attached_responses *responses; /* NULL: not on a single rigid body, or not attachable */
 } sbri_island_pins;
 

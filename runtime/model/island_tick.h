@@ -39,14 +39,14 @@ typedef struct sbri_reaction {
 
 /* Recovery of an island from failure; times in ticks. */
 typedef struct sbri_recovery {
-  uint32_t ticks;          /* left in which the router keeps the recovery integrator */
-  uint32_t rigid_ticks;    /* left in which its bodies move rigidly */
-  uint32_t row;            /* number of resets to the rest shape in quick succession */
-  uint32_t relapse_ticks;  /* window in which another reset counts as in succession */
-  uint32_t unsound_ticks;  /* since the motion of bodies without pins was last stored */
-  uint32_t jumped_ticks;   /* left after a jump of its pins, which may have crushed it */
-  uint32_t crushed_ticks;  /* since then in which it has been crushed */
-  float acceleration_m_s2; /* bound of how its drivers accelerate, forgotten slowly */
+  uint32_t ticks;               /* left in which the router keeps the recovery integrator */
+  uint32_t rigid_ticks;         /* left in which its bodies move rigidly */
+  uint32_t row;                 /* number of resets to the rest shape in quick succession */
+  uint32_t repeat_window_ticks; /* window in which another reset counts as in succession */
+  uint32_t unsound_ticks;       /* since the motion of bodies without pins was last stored */
+  uint32_t jumped_ticks;        /* left after a jump of its pins, which may have crushed it */
+  uint32_t crushed_ticks;       /* since then in which it has been crushed */
+  float acceleration_m_s2;      /* bound of how its drivers accelerate, forgotten slowly */
 } sbri_recovery;
 
 /* What acts on an island from outside. */

@@ -35,7 +35,7 @@ typedef struct sbri_split_layout {
 
 typedef struct sbri_rigid_layout {
   size_t bodies, joints, drive, stored_contacts;
-  size_t targets, reactions, burdens, touching, work_size;
+  size_t targets, reactions, attached_loads, touching, work_size;
 } sbri_rigid_layout;
 
 typedef struct sbri_contact_layout {

@@ -19,11 +19,11 @@ typedef struct sbri_load {
 } sbri_load;
 
 /* Points in which a vertex of a surface is embedded; weights sum to 1. */
-enum { SBRI_CARRIERS = 16 };
-typedef struct sbri_carriers {
-  uint32_t count, slots[SBRI_CARRIERS]; /* of the island */
-  float weights[SBRI_CARRIERS];
-} sbri_carriers;
+enum { SBRI_VERTEX_POINTS = 16 };
+typedef struct sbri_vertex_weights {
+  uint32_t count, slots[SBRI_VERTEX_POINTS]; /* of the island */
+  float weights[SBRI_VERTEX_POINTS];
+} sbri_vertex_weights;
 
 /* Scratch, for one tick, in the character's own units. */
 typedef struct sbri_load_now {
@@ -34,7 +34,7 @@ typedef struct sbri_load_now {
   sbf_vec3 target;                     /* m, of a hold */
   float stiffness, damping, max_force; /* N/m, N s/m, N, of a hold */
   float *impulse;                      /* of the load */
-  sbri_carriers at;                    /* none: the whole body */
+  sbri_vertex_weights at;              /* none: the whole body */
 } sbri_load_now;
 typedef struct sbri_loads_now_list {
   uint32_t count;

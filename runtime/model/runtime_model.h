@@ -37,8 +37,8 @@ typedef struct sbri_binding {
 /* A jiggle body: moves with its bone and a follower. Its frame follows all others. */
 typedef struct sbri_jiggle {
   uint32_t body;
-  uint32_t carrier; /* frame */
-  sbf_vec3 middle;  /* mean of the level's points at rest, asset space */
+  uint32_t parent; /* frame */
+  sbf_vec3 middle; /* mean of the level's points at rest, asset space */
   float frequency_hz, damping_ratio, response;
 } sbri_jiggle;
 
@@ -92,11 +92,12 @@ struct sbr_model {
   const sbf_asset *asset;
   sbri_rig rig;
   sbri_rigid_model rigid;
-  uint32_t rigid_substeps;         /* of a control tick */
-  bool rigid_coarse;               /* as sbr_model_options has it */
-  uint32_t frame_count;            /* bones, root, anchor, bodies (sbri_body_frame) */
-  const int32_t *carrier_of_frame; /* (frame_count) rigid body that a frame follows if simulated; -1: none */
-  sbri_body *bodies;               /* (asset->soft_bodies.count) */
+  uint32_t rigid_substeps; /* of a control tick */
+  bool rigid_coarse;       /* as sbr_model_options has it */
+  uint32_t frame_count;    /* bones, root, anchor, bodies (sbri_body_frame) */
+  const int32_t
+      *rigid_body_of_frame; /* (frame_count) rigid body that a frame follows if simulated; -1: none */
+  sbri_body *bodies;        /* (asset->soft_bodies.count) */
   sbri_island *islands;
   uint32_t island_count;
   uint32_t slot_count; /* of all islands */

@@ -3,12 +3,12 @@
 
 #include "model/runtime_model.h"
 
-enum { CARRIERS = 4 };
+enum { POINTS = 4 };
 
 /* 1 / sum of w^2 / m; 0 if no point is free. */
 static float mass_of(const sbri_island *island, const sbri_sample *s) {
   float sum = 0;
-  for (int k = 0; k < CARRIERS; k++)
+  for (int k = 0; k < POINTS; k++)
     if (s->slots[k] < island->free_count)
       sum += s->weights[k] * s->weights[k] * island->inverse_masses[s->slots[k]];
   return sum > 0 ? 1 / sum : 0;
@@ -20,7 +20,7 @@ sbri_sample sbri_sample_of(const sbri_island *island, const sbri_skin *skin, uin
   for (uint32_t c = skin->cell_begins[block]; c < skin->cell_begins[block + 1]; c++) {
     float weight = skin->cells[c].weights[lane];
     uint32_t slot = skin->cells[c].slots[lane] - island->first_slot;
-    for (int k = 0; k < CARRIERS && weight != 0; k++) {
+    for (int k = 0; k < POINTS && weight != 0; k++) {
       float own = s.weights[k];
       uint32_t at = s.slots[k];
       if (!(fabsf(weight) > fabsf(own))) continue;
@@ -29,7 +29,7 @@ sbri_sample sbri_sample_of(const sbri_island *island, const sbri_skin *skin, uin
     }
   }
   float sum = s.weights[0] + s.weights[1] + s.weights[2] + s.weights[3];
-  for (int k = 0; k < CARRIERS; k++) {
+  for (int k = 0; k < POINTS; k++) {
     s.weights[k] = fabsf(sum) > 1e-6f ? s.weights[k] / sum : s.weights[k];
     if (s.weights[k] == 0) s.slots[k] = s.slots[0];
   }

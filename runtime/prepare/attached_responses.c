@@ -33,22 +33,22 @@ static const float MIN_DAMPING = 0.03f;
 /* The only rigid body to which pinned points and springs of the island belong; -1: several, or none. */
 static int32_t single_rigid_body(const sbri_island_maker *m) {
   const sbri_island *island = m->island;
-  const int32_t *carriers = m->model->carrier_of_frame;
+  const int32_t *attachments = m->model->rigid_body_of_frame;
   int32_t found = -1;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
     for (uint32_t i = 0; i < body->level->positions.count; i++) {
       uint32_t slot = body->slots.from_point[i];
       if (slot < island->free_count) continue;
-      int32_t carrier = carriers[island->pins.frames[slot - island->free_count]];
-      if (carrier < 0 || (found >= 0 && carrier != found)) return -1;
-      found = carrier;
+      int32_t attachment = attachments[island->pins.frames[slot - island->free_count]];
+      if (attachment < 0 || (found >= 0 && attachment != found)) return -1;
+      found = attachment;
     }
   }
   for (uint32_t i = 0; i < m->goals.count; i++) {
-    int32_t carrier = carriers[((const sbri_goal *)m->goals.at)[i].frame];
-    if (carrier < 0 || (found >= 0 && carrier != found)) return -1;
-    found = carrier;
+    int32_t attachment = attachments[((const sbri_goal *)m->goals.at)[i].frame];
+    if (attachment < 0 || (found >= 0 && attachment != found)) return -1;
+    found = attachment;
   }
   return found;
 }
@@ -202,9 +202,9 @@ static void add_mass(const sbri_attached_responses *answers, sbf_vec3 from, doub
       for (int k = 0; k < 6; k++) to[i][j] += move[k][i] * half[k][j];
 }
 
-static bool is_attached_to(const sbri_island *island, uint32_t carrier) {
-  for (uint32_t i = 0; i < island->pins.carrier_count; i++)
-    if (island->pins.carriers[i] == carrier) return true;
+static bool is_attached_to(const sbri_island *island, uint32_t attachment) {
+  for (uint32_t i = 0; i < island->pins.attachment_count; i++)
+    if (island->pins.attachments[i] == attachment) return true;
   return false;
 }
 

@@ -12,7 +12,7 @@
 #include "math/vec3.h"
 #include "prepare/prepare.h"
 
-enum { CARRIERS = 4 };
+enum { POINTS = 4 };
 
 static bool is_embedded(const sbri_skin *skin) {
   if (skin->vertex_count == 0 || skin->frame_vertex_count > 0) return false;
@@ -26,7 +26,7 @@ static bool is_embedded(const sbri_skin *skin) {
 
 static float weight_below_0(const sbri_sample *s) {
   float sum = 0;
-  for (int k = 0; k < CARRIERS; k++) sum += s->weights[k] < 0 ? -s->weights[k] : 0;
+  for (int k = 0; k < POINTS; k++) sum += s->weights[k] < 0 ? -s->weights[k] : 0;
   return sum;
 }
 
@@ -146,11 +146,11 @@ static void add_surface_points(
 
 typedef struct keyed_sample {
   sbri_sample sample;
-  uint32_t key[CARRIERS], number; /* its slots in order */
+  uint32_t key[POINTS], number; /* its slots in order */
 } keyed_sample;
 
 static int compare_keys(const keyed_sample *a, const keyed_sample *b) {
-  for (int k = 0; k < CARRIERS; k++)
+  for (int k = 0; k < POINTS; k++)
     if (a->key[k] != b->key[k]) return a->key[k] < b->key[k] ? -1 : 1;
   return 0;
 }
@@ -163,7 +163,7 @@ static int compare_samples(const void *left, const void *right) {
 
 static keyed_sample keyed(const sbri_sample *s, uint32_t number) {
   keyed_sample made = {*s, {s->slots[0], s->slots[1], s->slots[2], s->slots[3]}, number};
-  for (int i = 1; i < CARRIERS; i++)
+  for (int i = 1; i < POINTS; i++)
     for (int k = i; k > 0 && made.key[k] < made.key[k - 1]; k--) {
       uint32_t key = made.key[k];
       made.key[k] = made.key[k - 1], made.key[k - 1] = key;

@@ -12,21 +12,21 @@
 /* ---- Rigid bodies of islands ---- */
 
 /* A bone belongs to the body of the nearest bone above it, or itself, that has one. */
-bool sbri_carriers_list(sbr_model *model) {
+bool sbri_attachments_list(sbr_model *model) {
   const sbri_rigid_model *rigid = &model->rigid;
-  int32_t *carriers = sbfi_arena_allocate(&model->arena, model->frame_count, sizeof *carriers);
-  if (!carriers) return false;
-  for (uint32_t f = 0; f < model->frame_count; f++) carriers[f] = -1;
+  int32_t *attachments = sbfi_arena_allocate(&model->arena, model->frame_count, sizeof *attachments);
+  if (!attachments) return false;
+  for (uint32_t f = 0; f < model->frame_count; f++) attachments[f] = -1;
   for (uint32_t i = 0; i < model->rig.bones.count; i++) {
     uint32_t bone = model->rig.bones.subtree[i];
     int32_t parent = model->rig.bones.parents[bone];
-    carriers[bone] = rigid->body_of_bone[bone] >= 0 ? rigid->body_of_bone[bone]
-                     : parent >= 0                  ? carriers[parent]
-                                                    : -1;
+    attachments[bone] = rigid->body_of_bone[bone] >= 0 ? rigid->body_of_bone[bone]
+                        : parent >= 0                  ? attachments[parent]
+                                                       : -1;
   }
   for (uint32_t b = 0; b < rigid->body_count; b++)
-    if (rigid->own_frames[b] != UINT32_MAX) carriers[sbri_body_frame(model, b)] = (int32_t)b;
-  model->carrier_of_frame = carriers;
+    if (rigid->own_frames[b] != UINT32_MAX) attachments[sbri_body_frame(model, b)] = (int32_t)b;
+  model->rigid_body_of_frame = attachments;
   return true;
 }
 
@@ -34,14 +34,16 @@ static bool list_pinned(sbr_model *model, sbri_island *island) {
   uint32_t pinned_count = island->slot_count - island->free_count, body_count = model->rigid.body_count;
   int32_t *of_pinned = sbfi_arena_allocate(&model->arena, (size_t)pinned_count + 1, sizeof *of_pinned);
   uint32_t *springs = sbfi_arena_allocate(&model->arena, (size_t)island->springs.count + 1, sizeof *springs);
-  uint32_t *carriers = sbfi_arena_allocate(&model->arena, (size_t)body_count + 1, sizeof *carriers);
-  if (!of_pinned || !springs || !carriers) return false;
-  for (uint32_t i = 0; i < pinned_count; i++) of_pinned[i] = model->carrier_of_frame[island->pins.frames[i]];
-  island->pins.rigid_bodies = of_pinned, island->pins.carriers = carriers, island->springs.pinned = springs;
+  uint32_t *attachments = sbfi_arena_allocate(&model->arena, (size_t)body_count + 1, sizeof *attachments);
+  if (!of_pinned || !springs || !attachments) return false;
+  for (uint32_t i = 0; i < pinned_count; i++)
+    of_pinned[i] = model->rigid_body_of_frame[island->pins.frames[i]];
+  island->pins.rigid_bodies = of_pinned, island->pins.attachments = attachments,
+  island->springs.pinned = springs;
   for (uint32_t b = 0; b < body_count; b++) {
     bool carries = false;
     for (uint32_t i = 0; i < pinned_count && !carries; i++) carries = of_pinned[i] == (int32_t)b;
-    if (carries) carriers[island->pins.carrier_count++] = b;
+    if (carries) attachments[island->pins.attachment_count++] = b;
   }
   for (uint32_t i = 0; i < island->springs.count; i++) {
     const sbfi_spring *s = &island->springs.at[i];
@@ -58,7 +60,7 @@ typedef struct stiffness {
   double along, about[3];
 } stiffness;
 
-static int32_t carrier_of(const sbri_island *island, uint32_t slot) {
+static int32_t rigid_body_of_bone(const sbri_island *island, uint32_t slot) {
   return slot >= island->free_count ? island->pins.rigid_bodies[slot - island->free_count] : -1;
 }
 
@@ -84,11 +86,12 @@ static double square_of_strain(const sbfi_tetrahedron *t, const sbfi_d3 moves[4]
   return sum;
 }
 
-static void add_tetrahedron(const sbri_island *island, const sbri_rigid_body *body, int32_t carrier,
+static void add_tetrahedron(const sbri_island *island, const sbri_rigid_body *body, int32_t attachment,
     const sbfi_tetrahedron *t, const uint32_t slots[4], stiffness *sum) {
   double modulus = t->volume * (t->lame.mu + t->lame.lambda);
   sbfi_d3 moves[4];
-  for (int i = 0; i < 4; i++) moves[i] = (sbfi_d3){carrier_of(island, slots[i]) == carrier ? 1 : 0, 0, 0};
+  for (int i = 0; i < 4; i++)
+    moves[i] = (sbfi_d3){rigid_body_of_bone(island, slots[i]) == attachment ? 1 : 0, 0, 0};
   sum->along += modulus * square_of_strain(t, moves);
   for (int axis = 0; axis < 3; axis++) {
     for (int i = 0; i < 4; i++) {
@@ -96,7 +99,7 @@ static void add_tetrahedron(const sbri_island *island, const sbri_rigid_body *bo
       sbfi_d3 rotated = axis == 0   ? (sbfi_d3){0, -r.z, r.y}
                         : axis == 1 ? (sbfi_d3){r.z, 0, -r.x}
                                     : (sbfi_d3){-r.y, r.x, 0};
-      moves[i] = carrier_of(island, slots[i]) == carrier ? rotated : (sbfi_d3){0, 0, 0};
+      moves[i] = rigid_body_of_bone(island, slots[i]) == attachment ? rotated : (sbfi_d3){0, 0, 0};
     }
     /* In the body's axes on one side only: the norm does not depend on the other. */
     sum->about[axis] += modulus * square_of_strain(t, moves);
@@ -104,7 +107,7 @@ static void add_tetrahedron(const sbri_island *island, const sbri_rigid_body *bo
 }
 
 static void add_tetrahedra(
-    const sbr_model *model, const sbri_island *island, uint32_t carrier, stiffness *sum) {
+    const sbr_model *model, const sbri_island *island, uint32_t attachment, stiffness *sum) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &model->bodies[island->bodies[b]];
     for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
@@ -112,38 +115,39 @@ static void add_tetrahedra(
       uint32_t slots[4], count = 0;
       for (int k = 0; k < 4; k++) {
         slots[k] = body->slots.from_point[points[k]];
-        count += carrier_of(island, slots[k]) == (int32_t)carrier;
+        count += rigid_body_of_bone(island, slots[k]) == (int32_t)attachment;
       }
       sbfi_tetrahedron made;
       if (count % 4 == 0 || !sbri_body_tetrahedron(body, t, &made)) continue;
-      add_tetrahedron(island, &model->rigid.bodies[carrier], (int32_t)carrier, &made, slots, sum);
+      add_tetrahedron(island, &model->rigid.bodies[attachment], (int32_t)attachment, &made, slots, sum);
     }
   }
 }
 
 static void add_regions(
-    const sbri_island *island, const sbri_rigid_body *body, uint32_t carrier, stiffness *sum) {
+    const sbri_island *island, const sbri_rigid_body *body, uint32_t attachment, stiffness *sum) {
   for (uint32_t b = 0; b < island->regions.block_count; b++) {
     const sbri_region_block *block = &island->regions.blocks[b];
     for (uint32_t i = 0; i < block->member_count * SBRI_BLOCK; i++) {
       const sbri_region_member *m = &island->regions.members[block->first_member + i / SBRI_BLOCK];
       uint32_t slot = m->slots[i % SBRI_BLOCK];
-      if (carrier_of(island, slot) == (int32_t)carrier)
+      if (rigid_body_of_bone(island, slot) == (int32_t)attachment)
         add_point(island, body, slot, (double)m->stiffness[i % SBRI_BLOCK], sum);
     }
   }
 }
 
-static void add_island(const sbr_model *model, const sbri_island *island, uint32_t carrier, stiffness *sum) {
-  const sbri_rigid_body *body = &model->rigid.bodies[carrier];
+static void add_island(
+    const sbr_model *model, const sbri_island *island, uint32_t attachment, stiffness *sum) {
+  const sbri_rigid_body *body = &model->rigid.bodies[attachment];
   for (uint32_t i = 0; i < island->springs.pinned_count; i++) {
     const sbfi_spring *s = &island->springs.at[island->springs.pinned[i]];
     uint32_t pinned = s->a >= island->free_count ? s->a : s->b;
-    if (carrier_of(island, pinned) == (int32_t)carrier)
+    if (rigid_body_of_bone(island, pinned) == (int32_t)attachment)
       add_point(island, body, pinned, (double)s->stiffness_n_m, sum);
   }
-  add_tetrahedra(model, island, carrier, sum);
-  add_regions(island, body, carrier, sum);
+  add_tetrahedra(model, island, attachment, sum);
+  add_regions(island, body, attachment, sum);
 }
 
 static float square_of(const sbri_rigid_body *body, const stiffness *s) {
@@ -159,14 +163,14 @@ static float square_of(const sbri_rigid_body *body, const stiffness *s) {
 /* ---- Attached mass ---- */
 
 static void add_attached_mass(const sbr_model *model, uint32_t frame, const sbri_point *at, float mass) {
-  int32_t carrier = model->carrier_of_frame[frame];
-  if (carrier < 0) return;
-  const sbri_rigid_body *body = &model->rigid.bodies[carrier];
+  int32_t attachment = model->rigid_body_of_frame[frame];
+  if (attachment < 0) return;
+  const sbri_rigid_body *body = &model->rigid.bodies[attachment];
   sbf_vec3 r = local_arm(body, at), inverse_mass = body->inverse_inertia;
   float rotational = inverse_mass.x > inverse_mass.y ? inverse_mass.x : inverse_mass.y;
   rotational = rotational > inverse_mass.z ? rotational : inverse_mass.z;
-  model->rigid.attached_masses[carrier] += mass;
-  model->rigid.pinned_weights[carrier] += mass * (body->inverse_mass + sbri_dot(r, r) * rotational);
+  model->rigid.attached_masses[attachment] += mass;
+  model->rigid.pinned_weights[attachment] += mass * (body->inverse_mass + sbri_dot(r, r) * rotational);
 }
 
 static void add_attached_masses(const sbr_model *model, const sbri_island *island, const sbri_body *body) {
@@ -198,8 +202,8 @@ bool sbri_coupling_make(sbr_model *model) {
   for (uint32_t b = 0; b < model->rigid.body_count; b++) {
     stiffness sum = {0, {0, 0, 0}};
     for (uint32_t i = 0; i < model->island_count; i++)
-      for (uint32_t k = 0; k < model->islands[i].pins.carrier_count; k++)
-        if (model->islands[i].pins.carriers[k] == b) add_island(model, &model->islands[i], b, &sum);
+      for (uint32_t k = 0; k < model->islands[i].pins.attachment_count; k++)
+        if (model->islands[i].pins.attachments[k] == b) add_island(model, &model->islands[i], b, &sum);
     model->rigid.pinned_squares[b] = square_of(&model->rigid.bodies[b], &sum);
   }
   return true;

@@ -78,7 +78,7 @@ static float visits_per_substep(const sbri_island *island, bool solid) {
 
 static float error_of(const sbri_body *body, const sbf_level *level, bool is_finest) {
   float stated = stated_error(level);
-  if (stated > 0 && !sbri_level_has_gone_wrong(level, body->rest_size_m)) return stated;
+  if (stated > 0 && !sbri_level_has_failed(level, body->rest_size_m)) return stated;
   return is_finest ? 0 : UNSTATED_FRACTION * body->rest_size_m;
 }
 

@@ -183,7 +183,7 @@ static void put(const sbri_island *island, const cell_tables *t, uint32_t *used,
   uint32_t lane = slot % SBRI_BLOCK, index = island->cells.begins[slot / SBRI_BLOCK] + used[slot]++;
   t->cells[index].others[lane] = other;
   t->cells[index].stiffness[lane] = s->stiffness_n_m;
-  t->cells[index].pull[lane] = s->stiffness_n_m * s->rest_length_m;
+  t->cells[index].rest_force[lane] = s->stiffness_n_m * s->rest_length_m;
   if (t->damping) t->damping[index * SBRI_BLOCK + lane] = s->damping_ns_m;
   if (t->slack) t->slack[index * SBRI_BLOCK + lane] = s->slack;
   if (t->links) t->links[index * SBRI_BLOCK + lane] = island->links.of_spring[spring];

@@ -2,7 +2,7 @@
 #include "prepare/prepare.h"
 
 /* The frame that moves the body rigidly. */
-static uint32_t carrier_frame(const sbr_model *model, uint32_t soft_body) {
+static uint32_t parent_frame_of(const sbr_model *model, uint32_t soft_body) {
   int32_t bone = model->asset->soft_bodies.at[soft_body].bone;
   const sbri_body *body = &model->detail.base->bodies[soft_body];
   if (body->level && body->is_pinned && !body->drivers) return body->driver_frame;
@@ -32,7 +32,7 @@ bool sbri_jiggles_make(sbr_model *model) {
     for (uint32_t i = 0; i < level->positions.count; i++)
       x += level->positions.at[i].x, y += level->positions.at[i].y, z += level->positions.at[i].z;
     model->jiggles[model->jiggle_count++] = (sbri_jiggle){.body = b,
-        .carrier = carrier_frame(model, b),
+        .parent = parent_frame_of(model, b),
         .middle = {x * fraction, y * fraction, z * fraction},
         .frequency_hz = level->jiggle->frequency,
         .damping_ratio = level->jiggle->damping_ratio,

@@ -14,13 +14,13 @@ bool sbri_level_is_stepped(const sbf_level *level) {
   return sbri_level_has_stepped_model(level) && level->positions.count > 0;
 }
 
-bool sbri_level_has_gone_wrong(const sbf_level *level, float size_m) {
+bool sbri_level_has_failed(const sbf_level *level, float size_m) {
   bool measured = level->simulation.motion_error > 0;
   return !measured && level->simulation.error > USELESS_FRACTION * size_m;
 }
 
 bool sbri_level_is_useful(const sbf_level *level, float size_m) {
-  return sbri_level_is_stepped(level) && !sbri_level_has_gone_wrong(level, size_m);
+  return sbri_level_is_stepped(level) && !sbri_level_has_failed(level, size_m);
 }
 
 static bool is_level(const sbf_soft_body *body, const sbf_level *level, uint32_t index) {

@@ -19,7 +19,7 @@ bool sbri_level_has_stepped_model(const sbf_level *level);
 bool sbri_level_is_stepped(const sbf_level *level);
 /* Whether the error that a level states under gravity is too large a fraction of its body's size. An error
  * measured in motion is always accepted. */
-bool sbri_level_has_gone_wrong(const sbf_level *level, float size_m);
+bool sbri_level_has_failed(const sbf_level *level, float size_m);
 /* Whether a stepped level has a small enough error for a detail level. */
 bool sbri_level_is_useful(const sbf_level *level, float size_m);
 /* Whether the springs connect simulated levels. */
@@ -38,7 +38,7 @@ bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *fu
     const sbf_u32_list *points);
 /* The rigid bodies of frames; those that islands act on, with the stiffness; and the soft bodies that are
  * attached to one rigid body only, after all others. The first two return false if memory runs out. */
-bool sbri_carriers_list(sbr_model *model);
+bool sbri_attachments_list(sbr_model *model);
 bool sbri_coupling_make(sbr_model *model);
 void sbri_attached_mass_join(sbr_model *model);
 /* Neighbouring tetrahedra, and those around each point; false if memory runs out. */

@@ -196,7 +196,7 @@ sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options
                                                   : RIGID_SUBSTEPS;
   if (!make_bones(model) || !sbri_jiggles_make(model)) return no_memory(error);
   model->frame_count = model->rig.bones.count + 2 + model->rigid.own_frame_count + model->jiggle_count;
-  if (!sbri_carriers_list(model)) return no_memory(error);
+  if (!sbri_attachments_list(model)) return no_memory(error);
   sbf_status status = make_islands(model, options, error);
   if (status != SBF_OK) return status;
   if (!sbri_coupling_make(model) || !make_skins(model)) return no_memory(error);

@@ -15,8 +15,8 @@ typedef struct skin_binder {
   uint32_t source_count;       /* vertices of the mesh */
   const uint32_t *position_of; /* (source_count) index in the skin, UINT32_MAX: not in it; NULL: the same */
   sbfi_arena scratch;
-  sbfi_array weighted_slots; /* carrier */
-  sbfi_array bindings;       /* sbri_binding; `cell` is the first of four carriers until cells are assigned */
+  sbfi_array weighted_slots; /* point and weight */
+  sbfi_array bindings;       /* sbri_binding; `cell` is the first of four points until cells are assigned */
   sbfi_array pieces;         /* piece */
   bool shared;               /* the present embedding has vertices with several points */
 } skin_binder;
@@ -117,7 +117,7 @@ static bool add_embedding(skin_binder *c, const sbri_body *body, const sbf_embed
   return true;
 }
 
-/* `indices` has the cell of each carrier. */
+/* `indices` has the cell of each point. */
 static bool store_bindings(skin_binder *c, const uint32_t *indices) {
   sbri_skin *skin = c->skin;
   uint32_t count = (uint32_t)c->bindings.count;

@@ -7,13 +7,13 @@
 
 /* The points with at least a twentieth of the vertex's weight, as slots of the character, by decreasing
  * weight. None for a vertex that follows something else, or one side of a tear (soft/tear/torn_network.c). */
-typedef struct carriers {
+typedef struct embedding {
   uint32_t slots[4], count;
-} carriers;
+} embedding;
 
-static carriers carriers_of(const sbri_skin *skin, uint32_t vertex) {
+static embedding embedding_of(const sbri_skin *skin, uint32_t vertex) {
   const float min = 0.05f;
-  carriers found = {{0}, 0};
+  embedding found = {{0}, 0};
   uint32_t lane = vertex % SBRI_BLOCK;
   float max = 0;
   bool bound = skin->binding_count && skin->binding_of[vertex] != UINT32_MAX;
@@ -78,8 +78,8 @@ bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *fu
   uint32_t count = 0;
   for (uint32_t p = 0, first = 0; p < sizes->count; first += sizes->at[p++]) {
     for (uint32_t i = 0; i < sizes->at[p]; i++) {
-      carriers a = carriers_of(full, points->at[first + i]);
-      carriers b = carriers_of(full, points->at[first + (i + 1) % sizes->at[p]]);
+      embedding a = embedding_of(full, points->at[first + i]);
+      embedding b = embedding_of(full, points->at[first + (i + 1) % sizes->at[p]]);
       if (a.count && b.count) count = add(model, strengths, count, a.slots[0], b.slots[0]);
       for (uint32_t k = 1; k < a.count; k++)
         for (uint32_t l = 0; l < k; l++) count = add(model, strengths, count, a.slots[l], a.slots[k]);

@@ -61,14 +61,14 @@ static bool fill_table(
 }
 
 /* The rigid body of all pinned points, or of the whole surface; -1: several, or something else. */
-static int32_t find_carrier(const sbri_island *island, const sbri_body *body) {
-  int32_t carrier = island->pins.carrier_count == 1 ? (int32_t)island->pins.carriers[0] : -1;
+static int32_t find_attachment(const sbri_island *island, const sbri_body *body) {
+  int32_t attachment = island->pins.attachment_count == 1 ? (int32_t)island->pins.attachments[0] : -1;
   for (uint32_t i = 0; i < body->volume.pinned_weight_count; i++) {
     int32_t by = island->pins.rigid_bodies[body->volume.pinned_weights[i].slot - island->free_count];
-    if (by < 0 || (i > 0 && by != carrier)) return -1;
-    carrier = by;
+    if (by < 0 || (i > 0 && by != attachment)) return -1;
+    attachment = by;
   }
-  return carrier;
+  return attachment;
 }
 
 /* Pinned points, which get the reactions. */
@@ -82,7 +82,7 @@ static bool list_pinned(
   for (size_t i = 0; i < count; i++)
     if (face_weights[i].slot >= free_count) to[body->volume.pinned_weight_count++] = face_weights[i];
   body->volume.pinned_weights = to;
-  body->volume.carrier = find_carrier(island, body);
+  body->volume.attachment = find_attachment(island, body);
   return true;
 }
 

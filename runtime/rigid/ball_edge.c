@@ -187,8 +187,8 @@ static void add_targets(const sbri_edge *edge, double angular_change[3]) {
   for (uint32_t r = 0; r < edge->active_count; r++) {
     const sbri_row *row = &edge->rows[edge->actives[r]];
     const float *g = row->rates[edge->ball->child] + 3;
-    double pull = edge->rhs[r] / (double)row->compliance;
-    for (int k = 0; k < 3; k++) angular_change[k] += pull * g[k];
+    double torque = edge->rhs[r] / (double)row->compliance;
+    for (int k = 0; k < 3; k++) angular_change[k] += torque * g[k];
   }
 }
 

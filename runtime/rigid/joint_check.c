@@ -91,13 +91,13 @@ static bool slip_ball(const sbri_rigid_system *s, sbri_edge *e) {
 static bool slip_row(sbri_row *row) {
   if (!row->active || !(row->dry_friction > 0)) return false;
   float relative_speed = fabsf(row->target - row->compliance * row->impulse),
-        pull = row->target / row->compliance;
+        force = row->target / row->compliance;
   if (!(row->dry_friction * relative_speed > MAX_DRY_FACTOR * row->max_dry_friction)) return false;
   float dry = row->max_dry_friction / relative_speed, rate = 1 / row->compliance + dry - row->dry_friction;
   row->attached_mass += dry - row->dry_friction;
   row->dry_friction = dry;
   row->compliance = 1 / rate;
-  row->target = row->compliance * pull;
+  row->target = row->compliance * force;
   return true;
 }
 

@@ -41,7 +41,7 @@ sbri_joint_frames sbri_joint_frames_of(const sbri_rigid_joint *joint,
     sbf_vec3 at = sbri_add(anchor->position, sbri_rotate(anchor->rotation, hung[side]));
     sbf_vec3 rope = sbri_sub(sbri_add(poses[side]->position, p.arms[side]), at);
     p.ropes[side] = sbri_length(rope);
-    p.pulls[side] = sbri_normalize(rope, sbri_vec3(0, -1, 0));
+    p.rope_directions[side] = sbri_normalize(rope, sbri_vec3(0, -1, 0));
   }
   return p;
 }
@@ -109,8 +109,9 @@ static void set_angular_rates(const sbri_joint_frames *p, sbf_vec3 g, float rate
 static void set_pulley_rates(
     const sbri_rigid_joint *joint, const sbri_joint_frames *p, float rates[SBRI_SIDES][6]) {
   for (int side = 0; side < SBRI_SIDES; side++) {
-    sbf_vec3 pull = sbri_scale(p->pulls[side], side == SBRI_B ? joint->source->pulley_ratio : 1);
-    set_rates(rates[side], pull, sbri_cross(p->arms[side], pull));
+    sbf_vec3 direction =
+        sbri_scale(p->rope_directions[side], side == SBRI_B ? joint->source->pulley_ratio : 1);
+    set_rates(rates[side], direction, sbri_cross(p->arms[side], direction));
   }
 }
 

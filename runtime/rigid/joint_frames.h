@@ -15,9 +15,10 @@ typedef struct sbri_joint_frames {
   float half_tangent[2];     /* y and z of S's axis times the tangent of half its angle */
   bool has_angles;           /* the next two are computed on demand */
   sbri_swing_twist angles;
-  float swing;                /* angle of the swing */
-  sbf_vec3 pulls[SBRI_SIDES]; /* of a pulley: unit vectors from the anchors of its ropes to the frames */
-  float ropes[SBRI_SIDES];    /* of a pulley, m */
+  float swing; /* angle of the swing */
+  sbf_vec3
+      rope_directions[SBRI_SIDES]; /* of a pulley: unit vectors from the anchors of its ropes to the frames */
+  float ropes[SBRI_SIDES];         /* of a pulley, m */
 } sbri_joint_frames;
 
 /* `poses`: of the two bodies' frames; that of the anchor if a body is absent. `anchor`: likewise, for

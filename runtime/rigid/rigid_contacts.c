@@ -121,15 +121,15 @@ static void linearise(sbri_rigid_contact *contact, sbf_vec3 du) {
     contact->sliding.impulse = sbri_vec3(0, 0, 0), contact->sliding.side_mass = 0;
     return;
   }
-  sbf_vec3 pull = sbri_add_scaled(contact->sliding.sticking_impulse,
+  sbf_vec3 friction_start = sbri_add_scaled(contact->sliding.sticking_impulse,
       sbri_add_scaled(error, n, -sbri_dot(n, error)), contact->substep.tangential_mass);
-  float tangential = sbri_length(pull);
+  float tangential = sbri_length(friction_start);
   contact->iteration.slides = tangential > contact->sliding.bound;
   contact->iteration.is_active = sbri_dot(n, error) > 0;
   contact->sliding.impulse = sbri_vec3(0, 0, 0);
   contact->sliding.side_mass = 0;
   if (!contact->iteration.slides || !(contact->sliding.bound > 0)) return;
-  sbf_vec3 direction = sbri_scale(pull, 1 / tangential);
+  sbf_vec3 direction = sbri_scale(friction_start, 1 / tangential);
   contact->sliding.side_direction = sbri_cross(n, direction);
   contact->sliding.side_mass = contact->substep.tangential_mass * contact->sliding.bound / tangential;
   contact->sliding.impulse =
@@ -200,34 +200,36 @@ void sbri_rigid_contacts_linearise(
 
 /* Adds the same to the host's body, and the coupling of both. */
 static void add_external_body(sbri_rigid_external_body *g, const sbri_rigid_contact *contact, float more,
-    float grip, float side_grip, sbf_vec3 f) {
+    float tangential, float sideways, sbf_vec3 f) {
   const double n[3] = {(double)contact->normal.x, (double)contact->normal.y, (double)contact->normal.z};
   const double p[3] = {(double)contact->sliding.side_direction.x, (double)contact->sliding.side_direction.y,
       (double)contact->sliding.side_direction.z};
   double w[3][3];
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      w[i][j] = (i == j ? (double)grip : 0) + (double)more * n[i] * n[j] + (double)side_grip * p[i] * p[j];
+      w[i][j] =
+          (i == j ? (double)tangential : 0) + (double)more * n[i] * n[j] + (double)sideways * p[i] * p[j];
   sbri_rigid_external_body_couple(g, contact->external_body_arm, contact->substep.arm, w);
   sbri_rigid_external_body_apply_impulse(g, contact->external_body_arm, sbri_scale(f, -1));
 }
 
-/* d += J^T W J, b += J^T f, with J = (1, -arm x), W = stiff n n^T + grip (1 - n n^T) for sticking and stiff n
- * n^T + side_grip side side^T for sliding, and f the impulse at zero velocity change. */
+/* d += J^T W J, b += J^T f, with J = (1, -arm x), W = stiff n n^T + tangential (1 - n n^T) for sticking
+ * and stiff n n^T + sideways side side^T for sliding, and f the impulse at zero velocity change. */
 static void add_contact(
     sbri_node *node, const sbri_rigid_contact *contact, sbri_rigid_external_body *external_body) {
   float stiff = contact->iteration.is_active ? contact->substep.normal_mass : 0,
-        grip = contact->iteration.slides ? 0 : contact->substep.tangential_mass, more = stiff - grip;
-  float side_grip = contact->iteration.slides ? contact->sliding.side_mass : 0;
+        tangential = contact->iteration.slides ? 0 : contact->substep.tangential_mass,
+        more = stiff - tangential;
+  float sideways = contact->iteration.slides ? contact->sliding.side_mass : 0;
   const float n[3] = {contact->normal.x, contact->normal.y, contact->normal.z};
   const float p[3] = {contact->sliding.side_direction.x, contact->sliding.side_direction.y,
       contact->sliding.side_direction.z};
   sbf_vec3 arm_w[3]; /* columns of arm x W */
   for (int j = 0; j < 3; j++) {
     float column[3];
-    for (int i = 0; i < 3; i++) column[i] = (i == j ? grip : 0) + more * n[i] * n[j];
+    for (int i = 0; i < 3; i++) column[i] = (i == j ? tangential : 0) + more * n[i] * n[j];
     if (contact->iteration.slides)
-      for (int i = 0; i < 3; i++) column[i] += side_grip * p[i] * p[j];
+      for (int i = 0; i < 3; i++) column[i] += sideways * p[i] * p[j];
     arm_w[j] = sbri_cross(contact->substep.arm, sbri_vec3(column[0], column[1], column[2]));
     node->d[3][j] += arm_w[j].x, node->d[4][j] += arm_w[j].y, node->d[5][j] += arm_w[j].z;
     for (int i = j; i < 3; i++) node->d[i][j] += column[i];
@@ -251,7 +253,7 @@ static void add_contact(
   sbf_vec3 moment = sbri_cross(contact->substep.arm, f);
   const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
   for (int i = 0; i < 6; i++) node->b[i] += both[i];
-  if (external_body) add_external_body(external_body, contact, more, grip, side_grip, f);
+  if (external_body) add_external_body(external_body, contact, more, tangential, sideways, f);
 }
 
 void sbri_rigid_contacts_add(sbri_rigid_solving *work) {
@@ -288,10 +290,11 @@ static sbf_vec3 impulse_at(const sbri_rigid_contact *contact, sbf_vec3 du, float
   sbf_vec3 n = contact->normal, error = sbri_sub(contact->substep.target, du);
   float into = sbri_dot(n, error);
   *normal = into > 0 ? contact->substep.normal_mass * into : 0;
-  sbf_vec3 pull = sbri_add_scaled(
+  sbf_vec3 friction_start = sbri_add_scaled(
       contact->sliding.sticking_impulse, sbri_add_scaled(error, n, -into), contact->substep.tangential_mass);
-  float tangential = sbri_length(pull);
-  return tangential > contact->sliding.bound ? sbri_scale(pull, contact->sliding.bound / tangential) : pull;
+  float tangential = sbri_length(friction_start);
+  return tangential > contact->sliding.bound ? sbri_scale(friction_start, contact->sliding.bound / tangential)
+                                             : friction_start;
 }
 
 static double dot_of(sbf_vec3 a, sbf_vec3 b) {
@@ -314,12 +317,14 @@ void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work) {
     if (!(contact->sliding.bound > 0)) continue;
     sbf_vec3 tangential = sbri_add_scaled(error, n, -into),
              tangential_change = sbri_add_scaled(displacement, n, -normal_part);
-    sbf_vec3 pull = sbri_add_scaled(
+    sbf_vec3 friction_start = sbri_add_scaled(
                  contact->sliding.sticking_impulse, tangential, contact->substep.tangential_mass),
-             grip = sbri_scale(tangential_change, contact->substep.tangential_mass);
+             friction_change = sbri_scale(tangential_change, contact->substep.tangential_mass);
     p->bound = (double)contact->sliding.bound;
     p->inverse_mass = 1 / (double)contact->substep.tangential_mass;
-    p->pull_pull = dot_of(pull, pull), p->pull_grip = dot_of(pull, grip), p->grip_grip = dot_of(grip, grip);
+    p->start_square = dot_of(friction_start, friction_start),
+    p->start_dot_change = dot_of(friction_start, friction_change),
+    p->change_square = dot_of(friction_change, friction_change);
   }
 }
 

@@ -22,8 +22,8 @@ void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
       node->d[k][k] = mass;
       for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->mass_factor * node->inertia[k][j];
     }
-    for (int k = 0; node->burden && k < 6; k++)
-      for (int j = 0; j <= k; j++) node->d[k][j] += node->burden[k][j];
+    for (int k = 0; node->attached_load && k < 6; k++)
+      for (int j = 0; j <= k; j++) node->d[k][j] += node->attached_load[k][j];
     memcpy(node->b, node->known_impulse, sizeof node->b);
   }
   sbri_rigid_external_bodies_clear(work);

@@ -53,9 +53,9 @@ static void find_slope(
       a += node->previous[k] * linear + node->previous[3 + k] * angular;
       q += direction[k] * linear + direction[3 + k] * angular;
     }
-    for (int k = 0; node->burden && k < 6; k++)
+    for (int k = 0; node->attached_load && k < 6; k++)
       for (int j = 0; j < 6; j++) {
-        double mass_of = node->burden[k][j];
+        double mass_of = node->attached_load[k][j];
         a += mass_of * node->previous[k] * direction[j], q += mass_of * direction[k] * direction[j];
       }
   }
@@ -82,7 +82,7 @@ static void find_slope(
 
 /* Adds limits: a unilateral row along the step. `into` changes from its initial value by -`distance`, and the
  * force is proportional to it. Friction changes from P by -G, up to its bound; the squares of both and the
- * grip are stored. */
+ * friction_change are stored. */
 static void add_limits(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
@@ -105,8 +105,8 @@ static double slope_of_contacts(const sbri_rigid_solving *work, double fraction)
     double into = p->into - fraction * p->distance;
     if (into > 0) sum += p->stiff * into * p->distance;
     if (!(p->bound > 0)) continue;
-    double square = p->pull_pull - fraction * (2 * p->pull_grip - fraction * p->grip_grip);
-    double along = p->pull_grip - fraction * p->grip_grip;
+    double square = p->start_square - fraction * (2 * p->start_dot_change - fraction * p->change_square);
+    double along = p->start_dot_change - fraction * p->change_square;
     if (square > p->bound * p->bound) along *= p->bound / sqrt(square);
     sum += along * p->inverse_mass;
   }

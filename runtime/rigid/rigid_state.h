@@ -40,7 +40,7 @@ typedef struct sbri_rigid_drive_state {
   uint32_t any_dynamic;            /* some body is not kinematic */
   uint32_t posture;                /* of sbr_posture */
   float posture_s, still_s;        /* time in that posture; time of lying still in it, s */
-  float limp_fraction, rest_s, rise_s; /* of sbr_fall_definition */
+  float drive_fraction, rest_s, rise_s; /* of sbr_fall_definition */
 } sbri_rigid_drive_state;
 
 /* What a contact keeps from the previous step. */
@@ -123,19 +123,19 @@ typedef struct sbri_attached_load {
   sbf_vec3 velocity, angular_momentum;
 } sbri_attached_load;
 
-/* External forces on the bodies. `act` is called before each step over a fraction of the tick, with the
- * seconds over which gravity acts in it; it adds impulses to linear and angular velocities
- * (sbri_rigid_mass_factor). `acted` is called after the step, with its seconds and those over which gravity
- * acted.
+/* External forces on the bodies. `before_step` is called before each step over a fraction of the tick, with
+ * the seconds over which gravity acts in it; it adds impulses to linear and angular velocities
+ * (sbri_rigid_mass_factor). `after_step` is called after the step, with its seconds and those over which
+ * gravity acted.
  */
-typedef struct sbri_rigid_pull {
-  void (*act)(void *user, const struct sbri_rigid_tick *tick, float from, float to, float weight_s);
-  void (*acted)(void *user, const struct sbri_rigid_tick *tick, float step_s, float weight_s);
+typedef struct sbri_rigid_external_forces {
+  void (*before_step)(void *user, const struct sbri_rigid_tick *tick, float from, float to, float weight_s);
+  void (*after_step)(void *user, const struct sbri_rigid_tick *tick, float step_s, float weight_s);
   void *user;
-  const float *squares;              /* (body_count) rad^2/s^2, that it makes a body swing by at most */
-  const sbri_attached_load *burdens; /* (body_count); NULL: nobody bears anything */
-  uint32_t steps;                    /* minimum steps per tick */
-} sbri_rigid_pull;
+  const float *squares; /* (body_count) rad^2/s^2, that it makes a body swing by at most */
+  const sbri_attached_load *attached_loads; /* (body_count); NULL: nothing is attached */
+  uint32_t steps;                           /* minimum steps per tick */
+} sbri_rigid_external_forces;
 
 /* Input of a tick of all rigid bodies of a character. */
 typedef struct sbri_rigid_tick {
@@ -154,9 +154,9 @@ typedef struct sbri_rigid_tick {
   float tick_s;
   uint32_t substeps;
   bool coarse; /* solve joints and contacts only as far as sbr_model_options.rigid_coarse allows */
-  sbri_contact_reports *touching; /* (body_count) */
-  sbri_rigid_pull pull;           /* all 0: nothing does */
-  void *work;                     /* work memory, sbri_rigid_work_size(model) bytes */
+  sbri_contact_reports *touching;      /* (body_count) */
+  sbri_rigid_external_forces external; /* all 0: nothing does */
+  void *work;                          /* work memory, sbri_rigid_work_size(model) bytes */
 } sbri_rigid_tick;
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model);
@@ -165,7 +165,7 @@ uint32_t sbri_rigid_contact_capacity(const sbri_rigid_model *model);
 
 /* Mass factor of a body that joint forces would move too fast even for the maximum number of steps. Its
  * weight stays. */
-float sbri_rigid_mass_factor(const sbri_rigid_pull *pull, uint32_t body, float step_s);
+float sbri_rigid_mass_factor(const sbri_rigid_external_forces *external, uint32_t body, float step_s);
 
 /* Moments of inertia of a rotated body, in space. */
 void sbri_rigid_compute_moments(sbf_vec3 own, sbf_quat rotation, float to[3][3]);

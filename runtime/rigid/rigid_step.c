@@ -61,7 +61,7 @@ static size_t assign_arrays(const sbri_rigid_model *m, unsigned char *memory, sb
   work->motions = carve(&at, bodies + 1, sizeof *work->motions);
   work->begins = carve(&at, bodies + 1, sizeof *work->begins);
   work->kept = carve(&at, SBRI_RIGID_HALVINGS * (bodies + 1), sizeof *work->kept);
-  work->pulls = carve(&at, joints + 1, sizeof *work->pulls);
+  work->joint_forces = carve(&at, joints + 1, sizeof *work->joint_forces);
   work->balls = carve(&at, joints + 1, sizeof *work->balls);
   work->pairs = carve(&at, joints + 1, sizeof *work->pairs);
   work->joint_frames = carve(&at, joints + 1, sizeof *work->joint_frames);
@@ -187,8 +187,10 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     const sbf_vec3 *inverse_mass = &model->bodies[b].inverse_inertia;
     node->inverse_mass[0] = model->bodies[b].inverse_mass;
     node->inverse_mass[1] = (inverse_mass->x + inverse_mass->y + inverse_mass->z) / 3;
-    node->mass_factor = sbri_rigid_mass_factor(&t->pull, b, step_s);
-    node->burden = t->pull.burdens && t->pull.burdens[b].is_attached ? t->pull.burdens[b].mass : NULL;
+    node->mass_factor = sbri_rigid_mass_factor(&t->external, b, step_s);
+    node->attached_load = t->external.attached_loads && t->external.attached_loads[b].is_attached
+                              ? t->external.attached_loads[b].mass
+                              : NULL;
     memset(node->known_impulse, 0, sizeof node->known_impulse);
   }
   sbri_rigid_external_bodies_begin(work, step_s);
@@ -250,7 +252,7 @@ static bool is_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
-    work->pulls[e->joint] = sbri_scale(impulse, 1 / work->kick_s);
+    work->joint_forces[e->joint] = sbri_scale(impulse, 1 / work->kick_s);
   }
   return sbri_rigid_oscillates_too_fast(t, work, step_s);
 }
@@ -356,7 +358,8 @@ static void probe_joint_forces(const sbri_rigid_tick *t, sbri_rigid_solving *wor
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
-    work->pulls[e->joint] = sbri_add_scaled(work->pulls[e->joint], impulse, 1 / work->last_step_s);
+    work->joint_forces[e->joint] =
+        sbri_add_scaled(work->joint_forces[e->joint], impulse, 1 / work->last_step_s);
   }
   work->last_step_s = 0;
 }
@@ -379,23 +382,24 @@ void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
   assign_edge_arrays(t->model, work);
   for (uint32_t b = 0; b < t->model->body_count; b++) work->begins[b] = t->bodies[b].pose;
   for (uint32_t j = 0; j < t->model->joint_count; j++)
-    work->pulls[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
+    work->joint_forces[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
   sbri_rigid_contacts_find(t, work);
   sbri_rigid_shape_contacts_find(t, work);
   sbri_stored_contacts_apply(t, work);
   work->last_step_s = t->drive->last_step_s;
   if (work->last_step_s == 0 && work->system.node_count) probe_joint_forces(t, work);
   t->substeps = sbri_rigid_step_count(t, work);
-  if (t->substeps < t->pull.steps) t->substeps = t->pull.steps;
+  if (t->substeps < t->external.steps) t->substeps = t->external.steps;
 }
 
 void sbri_rigid_advance(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   if (!work->system.node_count) return;
   float old_step_s = work->last_step_s, step_s = t->tick_s * (to - from);
-  if (t->pull.act) t->pull.act(t->pull.user, t, from, to, 0.5f * (old_step_s + step_s));
+  if (t->external.before_step)
+    t->external.before_step(t->external.user, t, from, to, 0.5f * (old_step_s + step_s));
   substep(t, work, from, to, 0);
   float weight_s = step_s + 0.5f * (old_step_s - work->last_step_s);
-  if (t->pull.acted) t->pull.acted(t->pull.user, t, step_s, weight_s);
+  if (t->external.after_step) t->external.after_step(t->external.user, t, step_s, weight_s);
 }
 
 void sbri_rigid_end(const sbri_rigid_tick *t, sbri_rigid_solving *work) {

@@ -21,11 +21,11 @@ static const float ROUNDED = 1.001f;
 /* Fraction of its size per second below which a body counts as slow. */
 static const float SLOW_1_S = 0.1f;
 
-float sbri_rigid_mass_factor(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
-  if (pull->burdens && pull->burdens[body].is_attached) return 1;
-  float swell = pull->squares
-                    ? pull->squares[body] * step_s * step_s / (SBRI_RIGID_MAX_SWING * SBRI_RIGID_MAX_SWING)
-                    : 0;
+float sbri_rigid_mass_factor(const sbri_rigid_external_forces *external, uint32_t body, float step_s) {
+  if (external->attached_loads && external->attached_loads[body].is_attached) return 1;
+  float swell = external->squares ? external->squares[body] * step_s * step_s /
+                                        (SBRI_RIGID_MAX_SWING * SBRI_RIGID_MAX_SWING)
+                                  : 0;
   return swell > 1 ? swell : 1;
 }
 
@@ -49,7 +49,8 @@ static void find_force_stiffness(
   for (uint32_t k = body->joint_begin; k < body->joint_end; k++) {
     const sbri_rigid_joint *joint = &model->joints[model->joints_of[k]];
     int side = joint->bodies[SBRI_B] == (int32_t)b ? SBRI_B : SBRI_A;
-    add_force_stiffness(joint, side, t->bodies[b].pose.rotation, work->pulls[model->joints_of[k]], stiffness);
+    add_force_stiffness(
+        joint, side, t->bodies[b].pose.rotation, work->joint_forces[model->joints_of[k]], stiffness);
   }
 }
 
@@ -92,8 +93,8 @@ float sbri_rigid_swings(const sbri_rigid_tick *t, const sbri_rigid_solving *work
 /* Upper bound of the squared frequency that the edge's force gives its bodies, over all directions. */
 static void store_frequency(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_edge *e) {
   const sbri_rigid_joint *joint = &t->model->joints[e->joint];
-  sbf_vec3 pull = work->pulls[e->joint];
-  float square = sbri_dot(pull, pull);
+  sbf_vec3 force = work->joint_forces[e->joint];
+  float square = sbri_dot(force, force);
   for (int side = 0; side < SBRI_SIDES; side++) {
     if (e->nodes[side] < 0) continue;
     const sbf_vec3 *i = &t->model->bodies[joint->bodies[side]].inverse_inertia, at = joint->frames[side].at;

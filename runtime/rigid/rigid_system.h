@@ -97,11 +97,11 @@ typedef struct sbri_node {
   int32_t parent, edge; /* -1: root; -1: no joint holds it to its parent or the world */
   double d[6][6];       /* lower half, then its factor, with the pivots' inverses on the diagonal */
   double b[6], x[6];
-  double previous[6];        /* x of the previous iteration */
-  double known_impulse[6];   /* impulses that are known already: of saturated drives */
-  float inertia[3][3];       /* in space */
-  float mass_factor;         /* sbri_rigid_mass_factor */
-  const double (*burden)[6]; /* sbri_attached_load.mass; NULL: no mass is attached */
+  double previous[6];               /* x of the previous iteration */
+  double known_impulse[6];          /* impulses that are known already: of saturated drives */
+  float inertia[3][3];              /* in space */
+  float mass_factor;                /* sbri_rigid_mass_factor */
+  const double (*attached_load)[6]; /* sbri_attached_load.mass; NULL: no mass is attached */
   float
       max_swing_square; /* maximum squared angular frequency of the swing by its joints' springs, (rad/s)^2 */
   float inverse_mass[2]; /* 1 / mass, and the mean of 1 / moment of inertia */

@@ -26,16 +26,17 @@ typedef struct sbri_part_motion {
  */
 typedef struct sbri_contact_search {
   double stiff, into, distance;
-  double bound;                           /* N s; 0: there is no friction */
-  double pull_pull, pull_grip, grip_grip; /* P.P, P.G, G.G */
-  double inverse_mass;                    /* 1 / kg: the step over G */
+  double bound;                                         /* N s; 0: there is no friction */
+  double start_square, start_dot_change, change_square; /* P.P, P.G, G.G */
+  double inverse_mass;                                  /* 1 / kg: the step over G */
 } sbri_contact_search;
 
 typedef struct sbri_rigid_solving {
   sbri_rigid_system system;
   sbri_part_motion *motions; /* (body_count + 1); the last is the anchor, which does not move */
   sbr_transform *begins;     /* (body_count) poses when the tick began */
-  sbf_vec3 *pulls; /* (joint_count) joint force on body b, N: mean of the last tick, then of the last step */
+  sbf_vec3 *
+      joint_forces; /* (joint_count) joint force on body b, N: mean of the last tick, then of the last step */
   sbri_rigid_body_state
       *kept;             /* (SBRI_RIGID_HALVINGS x body_count) states before steps that may be repeated */
   sbri_ball *balls;      /* (joint_count) of the edges */

@@ -47,9 +47,9 @@ static sbf_vec3 single_of(const double v[3]) {
  * not set the motion since, the body continues with them. */
 static void begin_body(sbri_collider *c, float tick_s) {
   sbri_host_body *b = &c->body;
-  b->sharer_count = b->next_sharer_count, b->impulse = single_of(b->next_impulse),
+  b->contributor_count = b->next_contributor_count, b->impulse = single_of(b->next_impulse),
   b->moment = single_of(b->next_moment);
-  b->next_sharer_count = 0;
+  b->next_contributor_count = 0;
   for (int k = 0; k < 3; k++) b->next_impulse[k] = b->next_moment[k] = 0;
   if (!b->is_moving || b->is_reported) return;
   sbf_vec3 velocity_change =

@@ -22,9 +22,10 @@ static void add_axes(float m[6], const sbri_collider *leader, sbf_vec3 values) {
 }
 
 /* Sets the copy's fraction of the mass. A body that is blocked along a normal does not rotate either. */
-static void set_masses(sbri_external_body *g, const sbri_collider *leader, uint32_t sharers, float scale) {
+static void set_masses(
+    sbri_external_body *g, const sbri_collider *leader, uint32_t contributors, float scale) {
   const sbri_host_body *b = &leader->body;
-  float cube = scale * scale * scale, fraction = (float)sharers * cube;
+  float cube = scale * scale * scale, fraction = (float)contributors * cube;
   bool is_blocked = sbri_dot(b->blocked_normal, b->blocked_normal) > 0;
   g->max_inverse_mass = b->inverse_mass * fraction;
   g->inverse_mass[0] = g->inverse_mass[1] = g->inverse_mass[2] = g->max_inverse_mass;
@@ -70,12 +71,12 @@ static own_impulse previous_impulse(const sbri_external_body_maker *m, const sbr
 
 /* Predicts the effect of the other bodies: the same as in the previous tick. */
 static void predict_others(sbri_external_body *g, const sbri_external_body_maker *m, const sbri_host_body *b,
-    uint32_t sharers, const own_impulse *own) {
+    uint32_t contributors, const own_impulse *own) {
   float root = sqrtf(m->scale), cube = m->scale * m->scale * m->scale;
   float mass = 1 / (cube * root), moment = mass / m->scale; /* the time unit is 1 / root */
-  float rate = 1 / ((float)sharers * m->tick_s);
-  sbf_vec3 other_impulse = sbri_add_scaled(sbri_scale(b->impulse, mass), own->impulse, -(float)sharers);
-  sbf_vec3 other_moment = sbri_add_scaled(sbri_scale(b->moment, moment), own->moment, -(float)sharers);
+  float rate = 1 / ((float)contributors * m->tick_s);
+  sbf_vec3 other_impulse = sbri_add_scaled(sbri_scale(b->impulse, mass), own->impulse, -(float)contributors);
+  sbf_vec3 other_moment = sbri_add_scaled(sbri_scale(b->moment, moment), own->moment, -(float)contributors);
   g->acceleration =
       sbri_add(g->acceleration, sbri_external_body_times(g->inverse_mass, sbri_scale(other_impulse, rate)));
   g->angular_acceleration = sbri_external_body_times(g->inverse_inertia, sbri_scale(other_moment, rate));
@@ -94,11 +95,11 @@ sbri_external_body sbri_external_body_make(
   g.begin_velocity = sbri_scale(sbri_shape_displacement(&of, b->centre), 1 / m->tick_s);
   g.begin_angular_velocity = sbri_vec3(rotation.x * rate, rotation.y * rate, rotation.z * rate);
   own_impulse own = previous_impulse(m, &g);
-  uint32_t sharers = b->sharer_count + (own.any ? 0 : 1);
-  sharers = sharers > 0 ? sharers : 1;
-  set_masses(&g, leader, sharers, m->scale);
+  uint32_t contributors = b->contributor_count + (own.any ? 0 : 1);
+  contributors = contributors > 0 ? contributors : 1;
+  set_masses(&g, leader, contributors, m->scale);
   g.acceleration = sbri_host_body_free(b, b->acceleration);
-  if (sharers > 1) predict_others(&g, m, b, sharers, &own);
+  if (contributors > 1) predict_others(&g, m, b, contributors, &own);
   g.velocity = g.seen_velocity = g.begin_velocity,
   g.angular_velocity = g.seen_angular_velocity = g.begin_angular_velocity;
   return g;

@@ -15,12 +15,12 @@ typedef struct sbri_host_body {
   sbf_vec3 velocity,
       angular_velocity; /* m/s of the collider's position, and rad/s: as set, or as predicted */
   sbf_vec3 reported_velocity, acceleration; /* m/s and m/s^2 */
-  sbf_vec3 blocked_normal;   /* unit, direction in which a constraint of the host blocks it; or zeros */
-  sbf_vec3 reported_impulse; /* N s that the host has read since it set the motion */
-  uint32_t
-      sharer_count; /* number of bodies that applied an impulse in the last tick, and the sum of impulses: */
+  sbf_vec3 blocked_normal;    /* unit, direction in which a constraint of the host blocks it; or zeros */
+  sbf_vec3 reported_impulse;  /* N s that the host has read since it set the motion */
+  uint32_t contributor_count; /* number of bodies that applied an impulse in the last tick, and the sum of
+                                 impulses: */
   sbf_vec3 impulse, moment;   /* N s, and N m s about its centre */
-  uint32_t next_sharer_count; /* the same of this tick */
+  uint32_t next_contributor_count; /* the same of this tick */
   double next_impulse[3], next_moment[3];
 } sbri_host_body;
 

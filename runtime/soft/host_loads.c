@@ -7,17 +7,17 @@ static const float TWO_PI = 6.2831853f, EARTH_M_S2 = 9.80665f;
 /* Default force limit of a hold, in multiples of the body's weight. */
 static const float LIFTS = 20;
 
-bool sbri_vertex_carriers(
-    const sbri_character *c, const sbri_body *body, uint32_t vertex, sbri_carriers *to) {
+bool sbri_vertex_weights_find(
+    const sbri_character *c, const sbri_body *body, uint32_t vertex, sbri_vertex_weights *to) {
   const sbri_skin skin = sbri_skin_now(c, &body->surface.skin);
   uint32_t block = vertex / SBRI_BLOCK, lane = vertex % SBRI_BLOCK;
   uint32_t first = c->model->islands[body->island].first_slot;
   float sum = 0;
-  *to = (sbri_carriers){0};
+  *to = (sbri_vertex_weights){0};
   if (vertex >= skin.vertex_count) return false;
   for (uint32_t i = skin.cell_begins[block]; i < skin.cell_begins[block + 1]; i++) {
     float weight = skin.cells[i].weights[lane];
-    if (weight == 0 || to->count == SBRI_CARRIERS) continue;
+    if (weight == 0 || to->count == SBRI_VERTEX_POINTS) continue;
     to->slots[to->count] = skin.cells[i].slots[lane] - first;
     to->weights[to->count++] = weight;
     sum += weight;
@@ -38,7 +38,7 @@ float sbri_body_mass(const sbri_character *c, const sbri_body *body) {
 }
 
 /* Inverse effective mass of an impulse that is distributed over the points. */
-static float inverse_mass_of(const sbri_island *island, const sbri_carriers *at) {
+static float inverse_mass_of(const sbri_island *island, const sbri_vertex_weights *at) {
   float sum = 0;
   for (uint32_t k = 0; k < at->count; k++)
     if (at->slots[k] < island->free_count)
@@ -65,7 +65,7 @@ static void prepare(const sbr_world *world, sbri_character *c, sbri_load *load) 
   float mass = sbri_body_mass(c, body), s = c->scale;
   sbri_load_now is = {.body = load->body, .holds = load->kind == SBRI_LOAD_HOLD, .impulse = load->impulse};
   bool whole = load->vertex == SBR_WHOLE_BODY;
-  if (!whole && !sbri_vertex_carriers(c, body, load->vertex, &is.at)) return;
+  if (!whole && !sbri_vertex_weights_find(c, body, load->vertex, &is.at)) return;
   is.inverse_mass = whole ? 1 / mass : inverse_mass_of(&now, &is.at);
   if (is.holds)
     hold(c, load, mass, &is);

@@ -138,25 +138,25 @@ static void set_motion(
 
 /* ---- Reset ---- */
 
-/* A body that is reset this many times in a row, each within RELAPSE_TICKS of the last, moves as a rigid body
- * for a while: at first for RIGID_TICKS, then for twice as long each time, up to eight times. */
-enum { RELAPSE_TICKS = 30, ROW_BEFORE_RIGID = 3, RIGID_TICKS = 60, MAX_DOUBLINGS = 3 };
+/* A body that is reset this many times in a row, each within REPEAT_WINDOW_TICKS of the last, moves as a
+ * rigid body for a while: at first for RIGID_TICKS, then for twice as long each time, up to eight times. */
+enum { REPEAT_WINDOW_TICKS = 30, ROW_BEFORE_RIGID = 3, RIGID_TICKS = 60, MAX_DOUBLINGS = 3 };
 
 static void count_reset(sbri_recovery *recovery, bool may_be_rigid) {
-  recovery->row = recovery->relapse_ticks > 0 ? recovery->row + 1 : 1;
+  recovery->row = recovery->repeat_window_ticks > 0 ? recovery->row + 1 : 1;
   recovery->ticks = SBRI_RECOVERING_TICKS;
   recovery->rigid_ticks = 0;
   if (may_be_rigid && recovery->row >= ROW_BEFORE_RIGID) {
     uint32_t doublings = recovery->row - ROW_BEFORE_RIGID;
     recovery->rigid_ticks = RIGID_TICKS << (doublings < MAX_DOUBLINGS ? doublings : MAX_DOUBLINGS);
   }
-  recovery->relapse_ticks = RELAPSE_TICKS + recovery->rigid_ticks;
+  recovery->repeat_window_ticks = REPEAT_WINDOW_TICKS + recovery->rigid_ticks;
 }
 
 static void count_tick(sbri_recovery *recovery) {
   recovery->unsound_ticks++;
   if (recovery->jumped_ticks > 0) recovery->jumped_ticks--;
-  if (recovery->relapse_ticks > 0) recovery->relapse_ticks--;
+  if (recovery->repeat_window_ticks > 0) recovery->repeat_window_ticks--;
   if (recovery->rigid_ticks > 0) recovery->rigid_ticks--;
 }
 

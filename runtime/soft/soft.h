@@ -48,7 +48,8 @@ sbr_soft_motion sbri_body_motion(const sbri_character *c, const sbri_body *body)
 bool sbri_body_accepts_forces(const sbri_character *c, const sbri_body *body);
 
 /* Finds the points that a vertex of the surface is embedded in; false if it follows bones only. */
-bool sbri_vertex_carriers(const sbri_character *c, const sbri_body *body, uint32_t vertex, sbri_carriers *to);
+bool sbri_vertex_weights_find(
+    const sbri_character *c, const sbri_body *body, uint32_t vertex, sbri_vertex_weights *to);
 /* Mass of the free points, in the character's own units. */
 float sbri_body_mass(const sbri_character *c, const sbri_body *body);
 bool sbri_any_loads(const sbri_character *c);

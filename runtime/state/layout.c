@@ -122,7 +122,7 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->pose.animated = position(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
   l->rigid.targets = position(&end, model->rigid.body_count, sizeof(sbr_transform));
   l->rigid.reactions = position(&end, model->rigid.body_count, sizeof(sbri_reaction));
-  l->rigid.burdens = position(&end, model->rigid.body_count, sizeof(sbri_attached_load));
+  l->rigid.attached_loads = position(&end, model->rigid.body_count, sizeof(sbri_attached_load));
   l->pose.stepped = position(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
   l->rigid.work_size = sbri_rigid_work_size(&model->rigid);
   l->pose.gait_before = position(&end, 1, sbri_gait_state_size(&model->rig));

@@ -176,8 +176,8 @@ SBRI_SCRATCH_PART(previous_deltas, sbri_delta, pose.previous_deltas) /* (frame_c
 SBRI_SCRATCH_PART(animated, sbr_transform, pose.animated)      /* (frame_count) pose before rigid parts */
 SBRI_SCRATCH_PART(rigid_targets, sbr_transform, rigid.targets) /* (rigid bodies) */
 SBRI_SCRATCH_PART(reactions, sbri_reaction, rigid.reactions)   /* (rigid bodies) */
-SBRI_SCRATCH_PART(burdens, sbri_attached_load, rigid.burdens)  /* (rigid bodies) */
-SBRI_SCRATCH_PART(stepped_pose, sbr_transform, pose.stepped)   /* (frame_count) in a tick */
+SBRI_SCRATCH_PART(attached_loads, sbri_attached_load, rigid.attached_loads) /* (rigid bodies) */
+SBRI_SCRATCH_PART(stepped_pose, sbr_transform, pose.stepped)                /* (frame_count) in a tick */
 SBRI_SCRATCH_PART(gait_before, void, pose.gait_before)
 SBRI_SCRATCH_PART(targets, sbri_point, points.targets)                 /* (slot_count) */
 SBRI_SCRATCH_PART(driver_velocities, float, points.driver_velocities)  /* (slot_count x 3) */
@@ -197,7 +197,8 @@ SBRI_SCRATCH_PART(visits, uint32_t, solids.visits)                   /* (counts.
 SBRI_SCRATCH_PART(queue, uint32_t, solids.queue)                     /* (counts.state_tetrahedra) */
 SBRI_SCRATCH_PART(touched, uint8_t, split.touched)                   /* (counts.bindings) */
 SBRI_SCRATCH_PART(owners, uint32_t, springs.owners) /* (slot_count x 2) where springs may tear */
-SBRI_SCRATCH_PART(frayed, uint8_t, springs.torn) /* (slot_count) where springs may tear: near a torn spring */
+SBRI_SCRATCH_PART(
+    torn_ends, uint8_t, springs.torn) /* (slot_count) where springs may tear: near a torn spring */
 SBRI_SCRATCH_PART(planes, float, contacts.planes)                        /* (slot_count x 4) */
 SBRI_SCRATCH_PART(ground_pressing, float, contacts.pressing)             /* (slot_count x 2) */
 SBRI_SCRATCH_PART(near_ground, uint8_t, contacts.near_ground)            /* (slot_count / 8) */

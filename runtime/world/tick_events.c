@@ -48,7 +48,7 @@ static void add_collider_impulse(sbri_collider *leader, const double impulse[3],
   sbri_host_body *body = &leader->body;
   sbr_double3 centre = sbri_collider_centre(leader);
   const double arm[3] = {about.x - centre.x, about.y - centre.y, about.z - centre.z};
-  body->next_sharer_count += is_first ? 1 : 0;
+  body->next_contributor_count += is_first ? 1 : 0;
   for (int k = 0; k < 3; k++) {
     int a = (k + 1) % 3, b = (k + 2) % 3;
     body->next_impulse[k] += impulse[k];

@@ -96,7 +96,7 @@ START_TEST(frames_move_no_bound)
           .turn = turns[k],
           .damping = 0.1,
           .jitter = late ? 0 : 0.8,
-          .hitch_ticks = late ? 12 : 0,
+          .slow_ticks = late ? 12 : 0,
           .stretch = 0.02};
       sbf_diagnostic error;
       ck_assert_int_eq(chart_cell_evaluate(&cell, &verdict, &error), SBF_OK);

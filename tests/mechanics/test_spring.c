@@ -12,7 +12,7 @@ START_TEST(the_force_is_the_slope_of_the_energy)
       double length = 0.07 * i, step = 1e-5;
       double slope =
           (sbfi_spring_energy(&s, length + step) - sbfi_spring_energy(&s, length - step)) / (2 * step);
-      ck_assert_double_eq_tol(sbfi_spring_pull(&s, (float)length) * length, slope, 2e-3);
+      ck_assert_double_eq_tol(sbfi_spring_force_factor(&s, (float)length) * length, slope, 2e-3);
     }
   }
 }
@@ -31,8 +31,8 @@ END_TEST
 START_TEST(strain_and_pull_of_springs_without_length)
 {
   const sbfi_spring goal = {0, 1, 120, 0, 0, 0}, s = {0, 1, 120, 2, 0, 0};
-  ck_assert_float_eq(sbfi_spring_pull(&goal, 0.5f), 120);
-  ck_assert_float_eq(sbfi_spring_pull(&s, 0), 0);
+  ck_assert_float_eq(sbfi_spring_force_factor(&goal, 0.5f), 120);
+  ck_assert_float_eq(sbfi_spring_force_factor(&s, 0), 0);
   ck_assert_float_eq(sbfi_spring_strain(&s, 3), 0.5f);
   ck_assert_float_eq(sbfi_spring_strain(&goal, 0.25f), 0.25f);
 }

@@ -21,7 +21,13 @@ PRIVATE_WORDS = {
     "tend": "update", "remember": "store", "guide": "driver", "guides": "drivers", "flesh": "attached body",
     "borne": "attached", "spin": "angular_velocity or angular_momentum", "apart": "separation",
     "doubt": "tolerance or warning", "doubts": "warnings", "judge": "check or evaluate", "calm": "damping",
-    "quiet": "idle", "crush": "compression", "thinning": "stretch", "mover": "kinematic", "roster": "pool"}
+    "quiet": "idle", "crush": "compression", "thinning": "stretch", "mover": "kinematic", "roster": "pool",
+    "yardstick": "comparison", "burden": "attached_load", "burdens": "attached_loads", "girth": "wall_volume",
+    "bumper": "wall_sphere", "bumpers": "wall_spheres", "carrier": "attachment or embedding point",
+    "carriers": "attachments or embedding points", "frayed": "torn_ends", "relapse": "repeat_window", "veil": "xray",
+    "hindmost": "rearmost", "girdle": "limb_root", "leveller": "level_maker", "lonely": "boundary or isolated",
+    "adrift": "unpinned", "dearer": "costlier", "dearest": "costliest", "hitch": "slow frame", "easel": "canvas",
+    "traveller": "translated_bone"}
 # Names of the format, its diagnostics and systems.
 KNOWN_NAMES = {
     "substeps_least", "substeps_most", "SBF_CODE_UNIT_LOOKS_WRONG", "SBF_CODE_DENSITY_LOOKS_WRONG",

@@ -74,7 +74,7 @@ static void hit(const scene *s, const limb *of) {
 }
 
 static bool bears(const scene *s) {
-  return sbri_burdens(sbri_character_of(s->world, s->character))[LIMB].is_attached;
+  return sbri_attached_loads(sbri_character_of(s->world, s->character))[LIMB].is_attached;
 }
 
 /* Flesh that hardly damps itself would swing up, so it is not borne. */

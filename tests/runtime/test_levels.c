@@ -27,13 +27,13 @@ END_TEST
 START_TEST(a_level_has_gone_wrong_by_more_than_a_quarter_of_its_body)
 {
   sbf_level level = of_model(SBF_ELASTIC_MODEL_SPRINGS);
-  ck_assert(!sbri_level_has_gone_wrong(&level, 2)); /* it states nothing */
+  ck_assert(!sbri_level_has_failed(&level, 2)); /* it states nothing */
   level.simulation.error = 0.5f;
-  ck_assert(!sbri_level_has_gone_wrong(&level, 2) && sbri_level_is_useful(&level, 2));
+  ck_assert(!sbri_level_has_failed(&level, 2) && sbri_level_is_useful(&level, 2));
   level.simulation.error = 0.51f;
-  ck_assert(sbri_level_has_gone_wrong(&level, 2) && !sbri_level_is_useful(&level, 2));
+  ck_assert(sbri_level_has_failed(&level, 2) && !sbri_level_is_useful(&level, 2));
   level.simulation.motion_error = 0.9f; /* it was seen to move so: that stands */
-  ck_assert(!sbri_level_has_gone_wrong(&level, 2) && sbri_level_is_useful(&level, 2));
+  ck_assert(!sbri_level_has_failed(&level, 2) && sbri_level_is_useful(&level, 2));
 }
 END_TEST
 
@@ -43,7 +43,7 @@ START_TEST(what_is_not_stepped_is_no_detail_level_however_near)
   level.simulation.error = 0.01f;
   ck_assert(sbri_level_is_useful(&level, 1));
   level.positions.count = 0;
-  ck_assert(!sbri_level_has_gone_wrong(&level, 1) && !sbri_level_is_useful(&level, 1));
+  ck_assert(!sbri_level_has_failed(&level, 1) && !sbri_level_is_useful(&level, 1));
 }
 END_TEST
 

@@ -222,8 +222,9 @@ START_TEST(a_snake_goes_over_edges_without_jumps)
     ((sbf_undulation *)(uintptr_t)gait->undulation)->wavelength = 0.6f;
     gait_stage s;
     gait_stage_begin_on(&s, a, stairs, STEP);
-    s.rig.girth.bumper_count = 1, s.rig.girth.bumpers[0].radius = 0.05f; /* so that it can fall */
-    s.rig.girth.step_up = 0.1f;
+    s.rig.wall_volume.wall_sphere_count = 1,
+    s.rig.wall_volume.wall_spheres[0].radius = 0.05f; /* so that it can fall */
+    s.rig.wall_volume.step_up = 0.1f;
     double speed[BONES] = {0}, height[BONES] = {0}, jump = 0, stretch = 0, under = 0;
     s.input.forward = 1, s.input.turn = turns ? 0.5f : 0;
     for (int t = 0; t < 900; t++) {

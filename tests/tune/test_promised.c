@@ -28,13 +28,13 @@ static const chart_drive unseen[] = {
 };
 
 static tune_meshes meshes;
-static tune_yardstick yard, other;
+static tune_comparison comparison, other;
 static tune_trials trials;
 
-static void make_yard(tune_yardstick *made, const chart_drive *drive) {
+static void make_yard(tune_comparison *made, const chart_drive *drive) {
   sbf_diagnostic error;
   sbf_status status =
-      tune_yardstick_make(made, meshes.reference.asset, &(tune_measure){.drive = drive}, &error);
+      tune_comparison_create(made, meshes.reference.asset, &(tune_measure){.drive = drive}, &error);
   ck_assert_msg(status == SBF_OK, "%s", error.message);
 }
 
@@ -50,21 +50,21 @@ static void setup(void) {
   ck_assert_msg(status == SBF_OK, "%s", error.message);
   sbf_asset_free(asset);
   ck_assert_int_eq(tune_trials_plan(&meshes, &effort, &trials, &error), SBF_OK);
-  make_yard(&yard, NULL);
+  make_yard(&comparison, NULL);
   make_yard(&other, &tune_harsher_drive);
-  status = tune_trials_run(&meshes, &yard, &other, &effort, &trials, &error);
+  status = tune_trials_run(&meshes, &comparison, &other, &effort, &trials, &error);
   ck_assert_msg(status == SBF_OK, "%s", error.message);
 }
 static void teardown(void) {
   tune_trials_free(&trials);
-  tune_yardstick_free(&yard);
-  tune_yardstick_free(&other);
+  tune_comparison_free(&comparison);
+  tune_comparison_free(&other);
   tune_meshes_free(&meshes);
 }
 
 START_TEST(it_holds_by_drives_that_it_has_not_seen)
 {
-  tune_yardstick third;
+  tune_comparison third;
   make_yard(&third, &unseen[_i]);
   ck_assert_uint_gt(trials.front_count, 0);
   for (uint32_t i = 0; i < trials.front_count; i++) {
@@ -72,14 +72,14 @@ START_TEST(it_holds_by_drives_that_it_has_not_seen)
     tune_error is;
     sbf_diagnostic error;
     ck_assert_int_eq(
-        tune_yardstick_hold(&third, meshes.at[trial->mesh].asset, &trial->setting, NULL, &is, &error),
+        tune_comparison_measure(&third, meshes.at[trial->mesh].asset, &trial->setting, NULL, &is, &error),
         SBF_OK);
     ck_assert(is.sound);
     ck_assert_double_le(is.off.max_m, trial->promised.max_m);
     ck_assert_double_le(is.off.p99_m, trial->promised.p99_m);
     ck_assert_double_le(is.off.rms_m, trial->promised.rms_m);
   }
-  tune_yardstick_free(&third);
+  tune_comparison_free(&third);
 }
 END_TEST
 
@@ -88,7 +88,7 @@ START_TEST(it_is_a_quarter_more_than_either_drive_shows)
   for (uint32_t i = 0; i < trials.front_count; i++) {
     const tune_trial *trial = &trials.at[trials.front[i]];
     const tune_distances *is = &trial->promised;
-    ck_assert_double_ge(is->max_m, 1.25 * (trial->error.off.max_m + yard.own.max_m) - 1e-12);
+    ck_assert_double_ge(is->max_m, 1.25 * (trial->error.off.max_m + comparison.own.max_m) - 1e-12);
     ck_assert_double_ge(is->max_m, 1.25 * (trial->other.off.max_m + other.own.max_m) - 1e-12);
     ck_assert_double_ge(is->p99_m, 1.25 * (trial->other.off.p99_m + other.own.p99_m) - 1e-12);
     ck_assert_double_ge(is->rms_m, 1.25 * (trial->other.off.rms_m + other.own.rms_m) - 1e-12);

@@ -41,7 +41,7 @@ typedef struct plot {
   bool *front;
   double bottom, top, failed;            /* of the axis; failures are above `failed` */
   int failing[MAX_LINES], failing_count; /* lines of schemes with failures, one row in the strip each */
-  double cheapest[2], dearest[2];
+  double cheapest[2], costliest[2];
   bool several_models;
   int key_rows, foot, height; /* pixels without the rows */
 } plot;
@@ -90,14 +90,14 @@ static void find_failing(plot *p) {
 
 static void find_range(plot *p) {
   double low = INFINITY, high = 0;
-  for (int k = 0; k < 2; k++) p->cheapest[k] = INFINITY, p->dearest[k] = 0;
+  for (int k = 0; k < 2; k++) p->cheapest[k] = INFINITY, p->costliest[k] = 0;
   for (uint32_t i = 0; i < p->sheet->row_count; i++) {
     const chart_row *row = &p->sheet->rows[i];
     for (int k = 0; !row->refused && k < 2; k++) {
       double cost = cost_of(row, k);
       if (!(cost > 0)) continue;
       p->cheapest[k] = fmin(p->cheapest[k], k ? cost : row->us.min);
-      p->dearest[k] = fmax(p->dearest[k], k ? cost : row->us.max);
+      p->costliest[k] = fmax(p->costliest[k], k ? cost : row->us.max);
     }
     if (row->refused || !chart_row_counts(row, p->axis)) continue;
     low = fmin(low, row->errors[p->axis]), high = fmax(high, row->errors[p->axis]);
@@ -110,11 +110,11 @@ static void find_range(plot *p) {
     p->top = p->failed * pow(p->failed / p->bottom, fraction / (1 - fraction));
   }
   for (int k = 0; k < 2; k++) {
-    if (!(p->dearest[k] > 0)) p->cheapest[k] = 1, p->dearest[k] = 10;
+    if (!(p->costliest[k] > 0)) p->cheapest[k] = 1, p->costliest[k] = 10;
     p->cheapest[k] = pow(10, floor(log10(p->cheapest[k]) * 2 - 0.3) / 2);
-    p->dearest[k] = pow(10, ceil(log10(p->dearest[k]) * 2 + 0.2) / 2);
+    p->costliest[k] = pow(10, ceil(log10(p->costliest[k]) * 2 + 0.2) / 2);
   }
-  p->dearest[0] = fmax(p->dearest[0], 8000);
+  p->costliest[0] = fmax(p->costliest[0], 8000);
 }
 
 /* Position of its failures: in the strip at the top, one row per scheme. */
@@ -282,7 +282,7 @@ static void write_panel(FILE *to, const plot *p, int panel) {
   fprintf(to, "set lmargin at screen %s\nset rmargin at screen %s\n", panel ? "0.565" : "0.085",
       panel ? "0.985" : "0.535");
   fprintf(to, "set xlabel '%s' offset 0,0.5\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n", costs[panel],
-      p->cheapest[panel], p->dearest[panel], p->bottom, p->top);
+      p->cheapest[panel], p->costliest[panel], p->bottom, p->top);
   fprintf(to, "set ytics %.6g,%d,%.6g\n", pow(10, ceil(log10(p->bottom))),
       log10(p->failed / p->bottom) > 9 ? 100 : 10, p->failed);
   if (panel == 1) fputs("unset ylabel\nset format y ''\n", to);

@@ -68,7 +68,7 @@ static double off_of(const recurrence *r, const chart_cell *cell) {
 static double frame_s(const chart_cell *cell, uint32_t frame, uint32_t *state) {
   *state = *state * 1664525u + 1013904223u;
   double chance = 2.0 * (*state >> 8) / 0x1p24 - 1;
-  return TICK_S * (1 + cell->jitter * chance + (frame == 15 ? cell->hitch_ticks : 0));
+  return TICK_S * (1 + cell->jitter * chance + (frame == 15 ? cell->slow_ticks : 0));
 }
 
 /* Height of its mass above equilibrium at the end of the last tick: from its weight's energy, because

@@ -8,11 +8,11 @@
 /* Parameters: control ticks of 1/60 s with one substep each, the spring along y. */
 typedef struct chart_cell {
   sbf_scheme scheme;
-  double turn;        /* w h: angular frequency times substep, rad, above 0 */
-  double damping;     /* fraction of critical, 0 to below 1 */
-  double jitter;      /* random variation of the frame length as a fraction of a tick; 0 to 1 */
-  double hitch_ticks; /* additional length of one frame after a quarter of a second */
-  double stretch;     /* initial distance from equilibrium relative to its length of 1 m, above 0 */
+  double turn;       /* w h: angular frequency times substep, rad, above 0 */
+  double damping;    /* fraction of critical, 0 to below 1 */
+  double jitter;     /* random variation of the frame length as a fraction of a tick; 0 to 1 */
+  double slow_ticks; /* additional length of one frame after a quarter of a second */
+  double stretch;    /* initial distance from equilibrium relative to its length of 1 m, above 0 */
   double mass_ratio, poisson_ratio; /* for cells of whole bodies (chart/hung_body.h); else 0 */
 } chart_cell;
 

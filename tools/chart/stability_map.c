@@ -71,7 +71,7 @@ chart_cell chart_map_cell(const chart_map *map, uint32_t scheme, uint32_t row, u
       .turn = between(CHART_MAP_MIN_TURN, CHART_MAP_MAX_TURN, (column + 0.5) / map->columns, true),
       .damping = 0.1,
       .stretch = 0.02};
-  double *const conditions[] = {&cell.damping, &cell.jitter, &cell.hitch_ticks, &cell.stretch};
+  double *const conditions[] = {&cell.damping, &cell.jitter, &cell.slow_ticks, &cell.stretch};
   if (a->kind == CHART_MAP_OF_ONE_MASS) {
     *conditions[a - chart_map_axes] = value;
     return cell;
@@ -142,7 +142,7 @@ static void write_cell(FILE *file, const chart_map *map, const chart_cell *cell,
     const chart_machine *m) {
   fprintf(file, "%s,%s,%s,%.6g,%.6g,%.6g,%.6g,%.6g,", map->axis->name,
       chart_elastic_names[map->axis->elastic], sbf_scheme_name(cell->scheme), cell->turn, cell->damping,
-      cell->jitter, cell->hitch_ticks, cell->stretch);
+      cell->jitter, cell->slow_ticks, cell->stretch);
   if (cell->mass_ratio > 0) fprintf(file, "%.6g,%.6g", cell->mass_ratio, cell->poisson_ratio);
   fprintf(file, "%s%s,", cell->mass_ratio > 0 ? "," : ",,", chart_outcome_names[v->outcome]);
   if (isfinite(v->off)) fprintf(file, "%.6g", v->off);

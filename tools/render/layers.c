@@ -26,7 +26,7 @@ sbf_status layers_make(
   if (set->line_frame) layers_destroy(set, gl);
   set->width = width, set->height = height;
   gl->ActiveTexture(GL_TEXTURE0);
-  bool good = light_maps_make_depth(gl, width, height, &set->veil_texture, &set->veil_frame);
+  bool good = light_maps_make_depth(gl, width, height, &set->xray_texture, &set->xray_frame);
   good = make_line_layer(set, gl) && good;
   if (good && gl->GetError() == GL_NO_ERROR) return SBF_OK;
   layers_destroy(set, gl);
@@ -35,8 +35,8 @@ sbf_status layers_make(
 }
 
 void layers_destroy(layer_set *set, const gl_api *gl) {
-  GLuint textures[] = {set->veil_texture, set->line_texture};
-  GLuint frames[] = {set->veil_frame, set->line_frame};
+  GLuint textures[] = {set->xray_texture, set->line_texture};
+  GLuint frames[] = {set->xray_frame, set->line_frame};
   gl->DeleteTextures(2, textures);
   gl->DeleteFramebuffers(2, frames);
   gl->DeleteRenderbuffers(1, &set->line_depth);

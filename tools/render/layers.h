@@ -8,7 +8,7 @@
 
 typedef struct layer_set {
   GLsizei width, height;           /* pixels of the drawing surface */
-  GLuint veil_texture, veil_frame; /* depth of the nearest transparent surface */
+  GLuint xray_texture, xray_frame; /* depth of the nearest transparent surface */
   /* Lines are anti-aliased by their shader and need no multisampling: a separate target with one sample
    * halves their cost. */
   GLuint line_texture, line_frame, line_depth;

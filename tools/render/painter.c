@@ -215,12 +215,12 @@ static void paint_solid(draw_painter *painter, const gl_api *gl, const draw_scen
 }
 
 /* The nearest layer of a transparent surface: depth first, so that its back does not accumulate. */
-static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw_scene_part *part) {
+static void paint_xray(const draw_painter *painter, const gl_api *gl, const draw_scene_part *part) {
   use_depth(painter, gl);
   begin_depth_first(gl);
   mesh_parts_draw(gl, part);
   end_depth_first(gl);
-  gl->UseProgram(painter->programs.at[PROGRAM_VEIL]);
+  gl->UseProgram(painter->programs.at[PROGRAM_XRAY]);
   gl->Uniform1f(painter->programs.opacity, 1 - part->transparency);
   gl->DepthMask(GL_FALSE);
   mesh_parts_draw(gl, part);
@@ -250,12 +250,12 @@ static void paint_lines(draw_painter *painter, const gl_api *gl, draw_scene *sce
 }
 
 /* Depth of the nearest transparent surface: lines behind it fade with the path length inside. */
-static void paint_veil_depths(const draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
+static void paint_xray_depths(const draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
   const draw_scene_part *parts = scene->parts.at;
-  begin_depth_map(gl, painter->layers.veil_frame, painter->layers.width, painter->layers.height, 1);
+  begin_depth_map(gl, painter->layers.xray_frame, painter->layers.width, painter->layers.height, 1);
   for (size_t i = 0; i < scene->parts.count; i++)
     if (parts[i].transparency > 0) mesh_parts_draw(gl, &parts[i]);
-  bind_texture(gl, UNIT_VEIL_DEPTHS, painter->layers.veil_texture, 0);
+  bind_texture(gl, UNIT_XRAY_DEPTHS, painter->layers.xray_texture, 0);
 }
 
 static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene *scene) {
@@ -264,7 +264,7 @@ static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene
   gl->DepthFunc(GL_LESS);
   const mesh_parts parts = parts_of(painter, gl, scene);
   use_depth(painter, gl);
-  if (scene->painted.xray_count) paint_veil_depths(painter, gl, scene);
+  if (scene->painted.xray_count) paint_xray_depths(painter, gl, scene);
   begin_depth_map(gl, painter->layers.line_frame, painter->layers.width, painter->layers.height, 1);
   gl->ClearColor(0, 0, 0, 0);
   gl->Clear(GL_COLOR_BUFFER_BIT);
@@ -306,7 +306,7 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   const draw_scene_part *parts = scene->parts.at;
   for (size_t i = 0; i < scene->painted.sorted_parts.count; i++) {
     if (parts[order[i]].transparency > 0)
-      paint_veil(painter, gl, &parts[order[i]]);
+      paint_xray(painter, gl, &parts[order[i]]);
     else
       mesh_parts_blend(&meshes, &parts[order[i]]);
   }

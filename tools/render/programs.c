@@ -77,7 +77,7 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
       [PROGRAM_MESH_ALPHA] = {shader_mesh_vert,
           {"#define SHADOW_SAMPLES 20\n#define BASE_IMAGE\n#define ALPHA\n", shader_light_glsl},
           shader_mesh_frag},
-      [PROGRAM_VEIL] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 0\n", shader_light_glsl},
+      [PROGRAM_XRAY] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 0\n", shader_light_glsl},
           shader_mesh_frag},
       [PROGRAM_LINE] = {shader_line_vert, {"", ""}, shader_line_frag},
       [PROGRAM_LAYER] = {shader_backdrop_vert, {"", ""}, shader_layer_frag},
@@ -91,7 +91,7 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
     }
     bind_inputs(gl, programs->at[i]);
   }
-  programs->opacity = gl->GetUniformLocation(programs->at[PROGRAM_VEIL], "opacity");
+  programs->opacity = gl->GetUniformLocation(programs->at[PROGRAM_XRAY], "opacity");
   programs->murk = gl->GetUniformLocation(programs->at[PROGRAM_LINE], "murk");
   programs->thinness = gl->GetUniformLocation(programs->at[PROGRAM_LINE], "thinness");
   programs->map_from_world = gl->GetUniformLocation(programs->at[PROGRAM_DEPTH], "map_from_world");

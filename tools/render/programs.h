@@ -16,7 +16,7 @@ typedef enum program_name {
   PROGRAM_MESH,
   PROGRAM_MESH_IMAGE, /* with a texture */
   PROGRAM_MESH_ALPHA, /* the same, with holes or blended */
-  PROGRAM_VEIL,       /* a transparent mesh */
+  PROGRAM_XRAY,       /* a transparent mesh */
   PROGRAM_LINE,
   PROGRAM_LAYER,
   PROGRAM_COUNT
@@ -30,14 +30,14 @@ enum {
   UNIT_GROUND_HEIGHTS,
   UNIT_LOWEST_HEIGHTS,
   UNIT_OPEN_SKY,
-  UNIT_VEIL_DEPTHS,
+  UNIT_XRAY_DEPTHS,
   UNIT_LINE_LAYER,
   UNIT_BASE_IMAGE
 };
 
 typedef struct program_set {
   GLuint at[PROGRAM_COUNT];
-  GLint opacity;                          /* uniform of PROGRAM_VEIL */
+  GLint opacity;                          /* uniform of PROGRAM_XRAY */
   GLint map_from_world;                   /* uniform of PROGRAM_DEPTH */
   GLint mask_map_from_world, mask_cutoff; /* uniforms of PROGRAM_DEPTH_MASK */
   GLint cutoff;                           /* uniform of PROGRAM_MESH_ALPHA */

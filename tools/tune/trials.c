@@ -13,7 +13,7 @@ enum { TIMED_TICKS = 30 };
 
 typedef struct sweep {
   const tune_meshes *meshes;
-  const tune_yardstick *yard, *other;
+  const tune_comparison *comparison, *other;
   const tune_effort *effort;
   tune_trials *to;
   sbf_diagnostic *error;
@@ -123,9 +123,9 @@ static double promise_of(double usual, double usual_own, double harsher, double 
 
 static sbf_status drive_harder(sweep *s, bool far, tune_trial *trial) {
   const tune_bar bar = {.error_m = INFINITY, .by = s->effort->by, .far = far};
-  const tune_distances *a = &trial->error.off, *b = &trial->other.off, *c = &s->yard->own,
+  const tune_distances *a = &trial->error.off, *b = &trial->other.off, *c = &s->comparison->own,
                        *d = &s->other->own;
-  sbf_status status = tune_yardstick_hold(
+  sbf_status status = tune_comparison_measure(
       s->other, s->meshes->at[trial->mesh].asset, &trial->setting, &bar, &trial->other, s->error);
   trial->driven_harder = true;
   trial->promised = (tune_distances){promise_of(a->rms_m, c->rms_m, b->rms_m, d->rms_m),
@@ -145,8 +145,8 @@ static const char *why_not(const sweep *s) {
 static sbf_status hold(sweep *s, uint32_t number, tune_bar *bar, double *best) {
   tune_trial *trial = &s->to->at[number];
   tune_error *is = &trial->error;
-  sbf_status status =
-      tune_yardstick_hold(s->yard, s->meshes->at[trial->mesh].asset, &trial->setting, bar, is, s->error);
+  sbf_status status = tune_comparison_measure(
+      s->comparison, s->meshes->at[trial->mesh].asset, &trial->setting, bar, is, s->error);
   if (status != SBF_OK || !is->sound) return status;
   bar->first = is->worst_number;
   if (is->beaten) return SBF_OK;
@@ -172,7 +172,7 @@ static sbf_status test_each(sweep *s, bool far) {
     report(s, "errors", done / all);
     done += t->at[i].visits;
     if (best <= s->effort->enough_m)
-      t->at[i].dearer = true;
+      t->at[i].costlier = true;
     else
       status = hold(s, i, &bar, &best);
   }
@@ -205,7 +205,7 @@ static sbf_status time_front(sweep *s) {
   sbf_status status = motions && timed ? SBF_OK : no_memory(s);
   for (uint32_t i = 0; status == SBF_OK && i < t->front_count; i++) {
     const tune_trial *trial = &t->at[t->front[i]];
-    chart_scene scene = chart_scene_of(&s->yard->cases[0], s->meshes->at[trial->mesh].asset);
+    chart_scene scene = chart_scene_of(&s->comparison->cases[0], s->meshes->at[trial->mesh].asset);
     scene.timed_ticks = TIMED_TICKS;
     timed[i] = (chart_timed){.run = chart_motion_run, .context = &motions[i]};
     status = chart_motion_open(&motions[i], &scene, &trial->setting, s->error);
@@ -223,9 +223,14 @@ static sbf_status time_front(sweep *s) {
   return status;
 }
 
-sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard, const tune_yardstick *other,
-    const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error) {
-  sweep s = {.meshes = meshes, .yard = yard, .other = other, .effort = effort, .to = trials, .error = error};
+sbf_status tune_trials_run(const tune_meshes *meshes, const tune_comparison *comparison,
+    const tune_comparison *other, const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error) {
+  sweep s = {.meshes = meshes,
+      .comparison = comparison,
+      .other = other,
+      .effort = effort,
+      .to = trials,
+      .error = error};
   sbf_status status = test_all(&s);
   if (status == SBF_OK) status = time_front(&s);
   return status;

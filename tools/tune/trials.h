@@ -4,8 +4,8 @@
 #define TUNE_TRIALS_H
 
 #include "chart/spread.h"
+#include "tune/comparison.h"
 #include "tune/tuned_meshes.h"
-#include "tune/yardstick.h"
 
 typedef struct tune_trial {
   uint32_t mesh; /* index of the mesh */
@@ -18,7 +18,7 @@ typedef struct tune_trial {
                               references' own error */
   bool refused;
   bool driven_harder;
-  bool dearer; /* skipped: a cheaper trial meets the goal */
+  bool costlier; /* skipped: a cheaper trial meets the goal */
   bool on_front;
   chart_spread us; /* per tick, on one core; for trials on the front, else zeros */
 } tune_trial;
@@ -42,11 +42,11 @@ typedef struct tune_effort {
 /* Plans trials and counts their visits. Free with tune_trials_free, also on failure. */
 sbf_status tune_trials_plan(
     const tune_meshes *meshes, const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error);
-/* Runs the trials with `yard`. Unsupported or broken ones are recorded too. Those that no cheaper one
+/* Runs the trials with `comparison`. Unsupported or broken ones are recorded too. Those that no cheaper one
  * beats also run with `other`, a harsher drive, and are on the front if no cheaper one promises as small
  * an error. SBF_BAD_INPUT if the front is empty. */
-sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard, const tune_yardstick *other,
-    const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error);
+sbf_status tune_trials_run(const tune_meshes *meshes, const tune_comparison *comparison,
+    const tune_comparison *other, const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error);
 void tune_trials_free(tune_trials *trials);
 
 #endif

@@ -72,7 +72,7 @@ static sbf_status restart(viewer *v, sbf_diagnostic *error) {
   v->st.s.ground = viewer_ground_make(v);
   sbf_status status = session_restart(&v->st.s, v->call, error);
   if (status == SBF_OK) status = viewer_begin(v, error);
-  return status == SBF_OK ? studio_dress(&v->st, error) : status;
+  return status == SBF_OK ? studio_set_appearance(&v->st, error) : status;
 }
 
 /* ---- The camera ---- */
@@ -147,7 +147,7 @@ static sbf_status next_level(viewer *v, bool of_skin, sbf_diagnostic *error) {
   session *s = &v->st.s;
   if (of_skin) {
     v->st.render_level = (v->st.render_level + 1) % viewer_render_level_count(s->asset);
-    return studio_dress(&v->st, error);
+    return studio_set_appearance(&v->st, error);
   }
   s->settings.model.level = (s->settings.model.level + 1) % viewer_level_count(s->asset);
   return restart(v, error);
@@ -185,7 +185,7 @@ static sbf_status choose(viewer *v, SDL_Keycode key, sbf_diagnostic *error) {
   default:
     if (key < SDLK_0 || key > SDLK_9) break;
     v->st.show ^= switches[(key - SDLK_0 + SWITCH_COUNT - 1) % SWITCH_COUNT]; /* 0 is the last */
-    return studio_dress(&v->st, error);
+    return studio_set_appearance(&v->st, error);
   }
   return SBF_OK;
 }

@@ -6,7 +6,7 @@
 #include "build/lattice/lattice_stuffing.h"
 
 /* Temporary marks of nodes, in addition to the bits that stay. */
-enum { CANDIDATE = 4, LONELY = 8, WEAK = 16 };
+enum { CANDIDATE = 4, ISOLATED = 8, WEAK = 16 };
 
 static const float min_part = 1e-3f; /* fraction of an edge; smaller parts are ignored */
 
@@ -108,11 +108,11 @@ bool sbfi_lattice_preserve_limbs(const sbfi_lattice_grid *grid, const sbfi_windi
   add_weak(&c, grid, crossings);
   for (uint32_t i = 0; i < c.count; i++)
     if (!has_neighbour(grid, inside, c.at[i], SBFI_LATTICE_INSIDE | WEAK, SBFI_LATTICE_INSIDE))
-      inside[c.at[i]] |= LONELY;
+      inside[c.at[i]] |= ISOLATED;
   /* All are selected before any is added, so the result does not depend on the order. */
   for (uint32_t i = 0; i < c.count; i++) {
     uint32_t node = c.at[i];
-    if ((inside[node] & LONELY) || has_neighbour(grid, inside, node, LONELY, LONELY))
+    if ((inside[node] & ISOLATED) || has_neighbour(grid, inside, node, ISOLATED, ISOLATED))
       c.at[(*count)++] = node;
     else
       inside[node] &= SBFI_LATTICE_INSIDE;

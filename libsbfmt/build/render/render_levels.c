@@ -20,13 +20,13 @@ typedef struct simplified {
   uint32_t triangle_count;
 } simplified;
 
-typedef struct leveller {
+typedef struct level_maker {
   const sbf_render_mesh *mesh;
   sbf_asset *asset;
   sbfi_arena *scratch;
   sbfi_wedges wedges[RULE_COUNT]; /* by rule; without triangles: not yet made */
   sbfi_triangle_tree full;
-} leveller;
+} level_maker;
 
 /* The simplifier throws if memory runs out, which C cannot catch: so this checks in advance whether enough
  * memory is available. */
@@ -37,7 +37,7 @@ static bool has_memory_for(const sbfi_wedges *wedges, const sbf_allocator *alloc
   return buffer != NULL;
 }
 
-static bool simplify(leveller *l, int rule, uint32_t target, simplified *made) {
+static bool simplify(level_maker *l, int rule, uint32_t target, simplified *made) {
   sbfi_wedges *wedges = &l->wedges[rule];
   if (!wedges->of_corner && !sbfi_wedges_make(wedges, l->mesh, rules[rule], l->scratch)) return false;
   size_t corner_count = 3 * (size_t)wedges->triangle_count;
@@ -51,7 +51,7 @@ static bool simplify(leveller *l, int rule, uint32_t target, simplified *made) {
 }
 
 /* Uses the first rule that reaches the target, otherwise the one that comes closest. */
-static bool simplify_by_rules(leveller *l, uint32_t target, simplified *best) {
+static bool simplify_by_rules(level_maker *l, uint32_t target, simplified *best) {
   for (int rule = 0; rule < RULE_COUNT; rule++) {
     simplified made;
     if (!simplify(l, rule, target, &made)) return false;
@@ -61,11 +61,11 @@ static bool simplify_by_rules(leveller *l, uint32_t target, simplified *best) {
   return true;
 }
 
-static uint32_t *new_list(leveller *l, size_t count) {
+static uint32_t *new_list(level_maker *l, size_t count) {
   return sbf_asset_allocate(l->asset, count, sizeof(uint32_t));
 }
 
-static bool fill_level(leveller *l, const simplified *made, sbf_render_level *level) {
+static bool fill_level(level_maker *l, const simplified *made, sbf_render_level *level) {
   const sbf_render_mesh *mesh = l->mesh;
   uint32_t count = made->triangle_count, corner_count = 3 * count;
   bool attributes = mesh->normals.count || mesh->uv_sets.count;
@@ -96,7 +96,7 @@ static float no_less(double value) {
   return (double)near < value ? nextafterf(near, INFINITY) : near;
 }
 
-static bool measure(leveller *l, sbf_render_level *level, sbfi_progress progress) {
+static bool measure(level_maker *l, sbf_render_level *level, sbfi_progress progress) {
   sbf_polygon_mesh coarse = l->mesh->mesh;
   coarse.polygon_sizes = level->polygon_sizes;
   coarse.polygon_points = level->polygon_points;
@@ -108,7 +108,7 @@ static bool measure(leveller *l, sbf_render_level *level, sbfi_progress progress
   return true;
 }
 
-static bool make_levels(leveller *l, sbf_render_mesh *mesh, const sbfi_render_recipe *recipe,
+static bool make_levels(level_maker *l, sbf_render_mesh *mesh, const sbfi_render_recipe *recipe,
     sbf_render_level *levels, sbfi_progress progress) {
   uint32_t level_count = 0;
   uint32_t full = mesh->mesh.polygon_points.count - 2 * mesh->mesh.polygon_sizes.count, before = full;
@@ -136,7 +136,7 @@ static bool level_mesh(sbf_render_mesh *mesh, const sbfi_render_recipe *recipe, 
     sbfi_progress progress, const sbf_allocator *allocator) {
   sbfi_arena arena;
   sbfi_arena_init(&arena, allocator, 0);
-  leveller l = {.mesh = mesh, .asset = asset, .scratch = &arena};
+  level_maker l = {.mesh = mesh, .asset = asset, .scratch = &arena};
   sbf_render_level *levels = sbf_asset_allocate(asset, recipe->levels, sizeof *levels);
   bool good = levels && sbfi_triangle_tree_build(&l.full, &mesh->mesh, &arena) &&
               make_levels(&l, mesh, recipe, levels, progress);

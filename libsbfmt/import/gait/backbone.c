@@ -12,13 +12,13 @@ static bool is_named_mouth(const sbfi_rig_view *view, uint32_t bone) {
   return sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)bone)->name) >> SBFI_WORD_MOUTH & 1;
 }
 
-/* Selects candidates for the backbone: bones of the middle except tongue and jaw. With `askew` it adds
- * limbs without a mirror image, because the spine of a rig that is not straight leaves the middle. */
-static void find_candidates(const sbfi_rig_view *view, bool askew, bool *candidates) {
+/* Selects candidates for the backbone: bones of the middle except tongue and jaw. With `without_symmetry` it
+ * adds limbs without a mirror image, because the spine of a rig that is not straight leaves the middle. */
+static void find_candidates(const sbfi_rig_view *view, bool without_symmetry, bool *candidates) {
   const sbfi_gait_draft *d = &view->draft;
   for (uint32_t i = 0; i < d->asset->bones.count; i++) {
-    bool in_pair = d->shapes[i].side != 0 && !askew;
-    for (uint32_t l = 0; l < view->limb_count && askew && !in_pair; l++)
+    bool in_pair = d->shapes[i].side != 0 && !without_symmetry;
+    for (uint32_t l = 0; l < view->limb_count && without_symmetry && !in_pair; l++)
       in_pair = view->limbs[l].twin != SBF_NONE && sbfi_draft_is_below(d, (int32_t)i, view->limbs[l].root);
     candidates[i] = d->shapes[i].moves_points && !in_pair && !is_named_mouth(view, i);
   }
@@ -101,8 +101,8 @@ static bool is_between(const sbfi_rig_view *view, const backbone_work *w, int32_
 
 /* Lists the bones along the hierarchy, regardless of the body's shape: up one half to the top and down the
  * other. */
-static void list_bones(const sbfi_rig_view *view, bool askew, backbone_work *w) {
-  find_candidates(view, askew, w->candidates);
+static void list_bones(const sbfi_rig_view *view, bool without_symmetry, backbone_work *w) {
+  find_candidates(view, without_symmetry, w->candidates);
   int32_t top = find_directions(view, w->candidates, w->first, w->second);
   if (top == SBF_NONE) return;
   for (int32_t bone = w->second[top].next; bone != SBF_NONE; bone = w->first[bone].next)
@@ -123,14 +123,14 @@ static double span_of(const sbfi_rig_view *view, const backbone_work *w) {
 
 bool sbfi_find_backbone(
     const sbfi_rig_view *view, sbf_asset *asset, sbfi_arena *scratch, sbf_u32_list *bones) {
-  backbone_work straight = {.count = 0}, askew = {.count = 0};
+  backbone_work straight = {.count = 0}, without_symmetry = {.count = 0};
   *bones = (sbf_u32_list){NULL, 0};
   if (!begin(&straight, asset, scratch)) return false;
   list_bones(view, false, &straight);
   if (span_of(view, &straight) < MIN_SPAN * sbfi_view_extent(view, 2)) {
-    if (!begin(&askew, asset, scratch)) return false;
-    list_bones(view, true, &askew);
-    if (span_of(view, &askew) > span_of(view, &straight)) straight = askew;
+    if (!begin(&without_symmetry, asset, scratch)) return false;
+    list_bones(view, true, &without_symmetry);
+    if (span_of(view, &without_symmetry) > span_of(view, &straight)) straight = without_symmetry;
   }
   if (straight.count >= 2) *bones = (sbf_u32_list){straight.bones, straight.count};
   return true;

@@ -108,15 +108,15 @@ static bool add_leg(sbfi_gait_draft *d, int32_t limb, double ground_fraction, in
 /* Finds hips and chest: the bones that carry the rearmost and the foremost legs. If they are one bone, it
  * is the hips. */
 static void find_girdles(sbfi_gait_draft *d) {
-  double hindmost = INFINITY, foremost = -INFINITY;
+  double rearmost = INFINITY, foremost = -INFINITY;
   d->hips = d->chest = SBF_NONE;
   for (uint32_t l = 0; l < d->leg_count; l++) {
-    int32_t girdle = sbfi_draft_bone(d, d->legs[l].limb)->parent;
+    int32_t limb_root = sbfi_draft_bone(d, d->legs[l].limb)->parent;
     double z = (double)sbfi_draft_bone(d, d->legs[l].end)->head.z;
-    if (girdle == SBF_NONE) continue;
-    if (z < hindmost) d->hips = girdle;
-    if (z > foremost) d->chest = girdle;
-    hindmost = fmin(hindmost, z);
+    if (limb_root == SBF_NONE) continue;
+    if (z < rearmost) d->hips = limb_root;
+    if (z > foremost) d->chest = limb_root;
+    rearmost = fmin(rearmost, z);
     foremost = fmax(foremost, z);
   }
   if (d->chest == d->hips) d->chest = SBF_NONE;

@@ -17,8 +17,8 @@ static uint32_t depth_of(const sbfi_gait_draft *d, int32_t bone) {
   return depth;
 }
 
-/* Lists bones from the first girdle to the last, and on to the end of the chain. Returns 0 if a girdle is
- * off the chain or the chain does not lead back. */
+/* Lists bones from the first root of a limb to the last, and on to the end of the chain. Returns 0 if a root
+ * is off the chain or the chain does not lead back. */
 static uint32_t list_row(sbfi_gait_draft *d, int32_t last) {
   uint32_t girdles = 0, all = 0, depth = depth_of(d, last), first = depth;
   for (uint32_t i = 0; i < d->asset->bones.count; i++) all += has_leg(d, (int32_t)i);

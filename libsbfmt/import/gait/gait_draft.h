@@ -20,7 +20,7 @@ typedef struct sbfi_bone_shape {
 } sbfi_bone_shape;
 
 typedef struct sbfi_leg_draft {
-  int32_t limb;              /* topmost bone of the leg; its parent is the girdle */
+  int32_t limb;              /* topmost bone of the leg; its parent is the root of the limb */
   int32_t upper, lower, end; /* consecutive; lower is SBF_NONE if end is a child of upper */
   int32_t toe;               /* bone below a long foot that touches the ground; SBF_NONE: `end` does */
   double reach;              /* m, from upper's head over lower's to the end's head */

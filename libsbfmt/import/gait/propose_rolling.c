@@ -98,7 +98,7 @@ bool sbfi_propose_roll(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *
   sbf_wheel *list = sbfi_convert_allocate(c, count, sizeof *list);
   sbf_tread *treads = sbfi_convert_allocate(c, (size_t)view->limb_count + 1, sizeof *treads);
   bool *done = sbfi_arena_allocate(&c->scratch, (size_t)view->limb_count + 1, sizeof *done);
-  double size = sbfi_view_size(view), foremost = -INFINITY, hindmost = INFINITY, radius;
+  double size = sbfi_view_size(view), foremost = -INFINITY, rearmost = INFINITY, radius;
   if (!list || !treads || !done) return false;
   sbf_tread_list of_tracks = {treads, 0};
   for (uint32_t i = 0; i < count; i++) {
@@ -110,14 +110,14 @@ bool sbfi_propose_roll(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *
     wheel->radius = (float)radius;
     double z = (double)c->asset->bones.at[i].head.z;
     foremost = fmax(foremost, z);
-    hindmost = fmin(hindmost, z);
+    rearmost = fmin(rearmost, z);
   }
   for (uint32_t l = 0; l < view->limb_count; l++)
     if (view->limbs[l].is_loop && !done[l] && !add_tread(c, view, &view->limbs[l], done, &of_tracks))
       return false;
   for (uint32_t w = 0; w < wheels && of_tracks.count == 0; w++) /* tracks replace wheels */
-    if (foremost - hindmost > (double)list[w].radius &&
-        (double)c->asset->bones.at[list[w].bone].head.z > foremost - 0.25 * (foremost - hindmost))
+    if (foremost - rearmost > (double)list[w].radius &&
+        (double)c->asset->bones.at[list[w].bone].head.z > foremost - 0.25 * (foremost - rearmost))
       list[w].steer_limit = 0.5f;
   gait->wheels = (sbf_wheel_list){wheels ? list : NULL, wheels};
   gait->treads = (sbf_tread_list){of_tracks.count ? treads : NULL, of_tracks.count};

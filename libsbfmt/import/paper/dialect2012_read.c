@@ -30,7 +30,7 @@ typedef enum location {
   FACE,
   FACE_NODE,
   BARYCENTRIC,
-  CARRIED,
+  EMBEDDED,
   ATTRIBUTES,
   ATTRIBUTE,
   RIGID_BODIES,
@@ -71,7 +71,7 @@ static const struct {
     {NORMALS, "vector", NORMAL},
     {FACES, "face", FACE},
     {FACE, "node", FACE_NODE},
-    {BARYCENTRIC, "coord", CARRIED},
+    {BARYCENTRIC, "coord", EMBEDDED},
     {RIGID_BODIES, "rigid_body", RIGID_BODY},
     {RIGID_BODIES, "joints", JOINTS},
     {RIGID_BODY, "polygon_mesh", SURFACE},
@@ -284,7 +284,7 @@ static bool begin(paper_reader *r, location is, attribute_list attributes) {
     return push(r, &r->body->surface.sizes) != NULL;
   case FACE_NODE:
     return read_corner(r, attributes);
-  case CARRIED:
+  case EMBEDDED:
     return read_embedding(r, attributes);
   case LIMIT:
     return read_limit(r, attributes);

@@ -199,16 +199,16 @@ static bool consider_triangles(search *s, sbfi_arena *arena) {
   if (!sbfi_triangle_shapes_make(&input, &s->r->input, arena) ||
       !sbfi_triangle_shapes_make(&rig, &s->r->rig, arena))
     return false;
-  double *worths = sbfi_arena_allocate(arena, input.count + 1, sizeof *worths);
-  if (!worths) return false;
-  for (uint32_t i = 0; i < input.count; i++) worths[i] = worth(&rig, &input.triangles[i]);
+  double *priorities = sbfi_arena_allocate(arena, input.count + 1, sizeof *priorities);
+  if (!priorities) return false;
+  for (uint32_t i = 0; i < input.count; i++) priorities[i] = worth(&rig, &input.triangles[i]);
   for (uint32_t turn = 0; turn < SEED_TRIANGLES && s->best_fraction < 0.999; turn++) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < input.count; i++)
-      if (worths[i] > worths[best]) best = i;
-    if (!input.count || worths[best] <= 0) break;
+      if (priorities[i] > priorities[best]) best = i;
+    if (!input.count || priorities[best] <= 0) break;
     seed at = {s, &input.triangles[best], 0};
-    worths[best] = 0;
+    priorities[best] = 0;
     sbfi_triangle_shapes_find(&rig, at.from, consider_triangle, &at);
   }
   return true;

@@ -12,7 +12,7 @@ enum { SAMPLES = 400, MIDDLES = 64 };
 
 /* As fractions of the input's longest side: tolerance of mirrored points, tolerance of middle bones, and
  * minimum asymmetry of a pair of limbs. */
-static const double NEAR = 0.01, MIDDLE = 0.1, ASKEW = 0.03;
+static const double NEAR = 0.01, MIDDLE = 0.1, ASYMMETRY = 0.03;
 /* Minimum fraction of points within the tolerance. */
 static const double MIN_ALIKE = 0.85;
 /* Minimum rotation, rad, of a bone of the other side onto the mirror image. */
@@ -140,7 +140,7 @@ static bool is_middle_near(const sbfi_limb_symmetry *s, double plane, double wit
 }
 
 /* Whether the limbs of the rig's two sides are posed differently, as in mid stride. */
-static bool is_rig_askew(const sbfi_limb_symmetry *s, double size) {
+static bool is_rig_asymmetric(const sbfi_limb_symmetry *s, double size) {
   const sbf_bone *bones = s->r->c->asset->bones.at;
   double plane = plane_between_twins(s), farthest = 0;
   for (uint32_t k = 0; k < s->lines->count; k++) {
@@ -148,7 +148,7 @@ static bool is_rig_askew(const sbfi_limb_symmetry *s, double size) {
     sbfi_d3 twin = mirrored(sbfi_d3_of(bones[s->twins[bone]].head), plane);
     farthest = fmax(farthest, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones[bone].head), twin)));
   }
-  return farthest > ASKEW * size;
+  return farthest > ASYMMETRY * size;
 }
 
 bool sbfi_limb_symmetry_holds(const sbfi_limb_symmetry *s, double *plane) {
@@ -157,7 +157,7 @@ bool sbfi_limb_symmetry_holds(const sbfi_limb_symmetry *s, double *plane) {
   sbfi_d3 low = sbfi_d3_of(s->r->input.low), high = sbfi_d3_of(s->r->input.high);
   sbfi_d3 sides = sbfi_d3_sub(high, low);
   double size = fmax(sides.x, fmax(sides.y, sides.z)) * sbfi_similarity_scale(m);
-  if (!is_rig_askew(s, size)) return false;
+  if (!is_rig_asymmetric(s, size)) return false;
   const double planes[] = {
       sbfi_similarity_apply(m, sbfi_d3_scale(sbfi_d3_add(low, high), 0.5)).x, plane_between_twins(s)};
   for (int i = 0; i < 2; i++) {

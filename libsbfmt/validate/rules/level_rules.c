@@ -84,7 +84,7 @@ static void mark_cross_springs(
 
 static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sbf_level *level,
     const uint8_t *pin_states, const char *path) {
-  uint32_t n = level->positions.count, loose = 0, first = 0, adrift = 0, anchored = 0;
+  uint32_t n = level->positions.count, loose = 0, first = 0, unpinned = 0, anchored = 0;
   pieces p = {sbfi_scratch(v, n, sizeof *p.parents), sbfi_scratch(v, n, 1)};
   uint8_t *is_point_pinned = sbfi_scratch(v, n, 1); /* at the roots of pieces */
   if (!p.parents || !p.used || !is_point_pinned) return;
@@ -95,17 +95,17 @@ static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sb
   for (uint32_t i = 0; i < n; i++) {
     if (!p.used[i] && pin_states[i] == SBFI_FREE && loose++ == 0) first = i;
     if (!p.used[i] || p.parents[i] != i) continue;
-    adrift += !is_point_pinned[i];
+    unpinned += !is_point_pinned[i];
     anchored += is_point_pinned[i];
   }
   if (loose && level->model == SBF_ELASTIC_MODEL_SPRINGS && level->springs.count)
     sbfi_found(v, SBF_CODE_POINT_LOOSE, sbfi_path_of("%s/positions", path).text, first,
         "%u free point%s of '%s' %s no spring", loose, sbfi_plural(loose), sbfi_label(body->name, body->id),
         loose == 1 ? "has" : "have");
-  if (adrift && adrift + anchored > 1 && level->model != SBF_ELASTIC_MODEL_TETRAHEDRA)
+  if (unpinned && unpinned + anchored > 1 && level->model != SBF_ELASTIC_MODEL_TETRAHEDRA)
     sbfi_found(v, SBF_CODE_LEVEL_PIECES, path, -1,
         "the level of '%s' consists of %u pieces, and %u of them fall%s", sbfi_label(body->name, body->id),
-        adrift + anchored, adrift, adrift == 1 ? "s" : "");
+        unpinned + anchored, unpinned, unpinned == 1 ? "s" : "");
 }
 
 static void check_masses(

@@ -27,14 +27,14 @@ static uint32_t polygons_at(const sbfi_topology *t, uint32_t edge) {
 static void find_extra_polygons(const surface *s) {
   const sbfi_topology *t = &s->t;
   for (uint32_t p = 0; p < t->polygon_count; p++) {
-    uint32_t crowded = 0, lonely = 0;
+    uint32_t crowded = 0, boundary = 0;
     for (uint32_t c = t->corner_begins[p]; c < t->corner_begins[p + 1]; c++) {
       uint32_t edge = t->corner_edges[c];
       if (edge == SBFI_NO_INDEX) continue;
       crowded += polygons_at(t, edge) > 2;
-      lonely += polygons_at(t, edge) == 1;
+      boundary += polygons_at(t, edge) == 1;
     }
-    if (crowded && lonely)
+    if (crowded && boundary)
       sbfi_found(s->v, SBF_CODE_SURFACE_STRAY_POLYGON, s->polygons.text, p,
           "polygon %u of '%s', with %u corners, is on an edge that two others share already", p, s->name,
           t->corner_begins[p + 1] - t->corner_begins[p]);

@@ -30,7 +30,7 @@ static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, cons
 
 /* Whether nothing supports it: no planted foot has ground, or, without legs, there is none under the body. */
 static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  float unsupported = GONE * rig->girth.step_up * input->scale;
+  float unsupported = GONE * rig->wall_volume.step_up * input->scale;
   if (!rig->leg_count) return support_height(rig, state, input) < state->fall.level - unsupported;
   bool stands = false;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -56,7 +56,7 @@ static void set_feet_below(const sbri_rig *rig, sbri_gait_state *state, const sb
 }
 
 bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  if (input->keeps_rest_pose || !rig->girth.bumper_count || sbri_is_afloat(rig)) return false;
+  if (input->keeps_rest_pose || !rig->wall_volume.wall_sphere_count || sbri_is_afloat(rig)) return false;
   if (!state->fall.is_falling && !(state->motion.position.y > LOW) && !has_no_ground(rig, state, input))
     return false;
   if (!state->fall.is_falling) state->fall.speed = 0;

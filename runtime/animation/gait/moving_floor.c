@@ -26,7 +26,7 @@ static floor_motion apply_floor_motion(
 static void find_floor_motion(const sbri_rig *rig, const sbri_gait_input *input, sbf_vec3 position,
     sbf_vec3 body, floor_motion *motion, floor_motion *of_body) {
   uint32_t number;
-  double tolerance = (double)(NEAR * rig->girth.step_up * input->scale);
+  double tolerance = (double)(NEAR * rig->wall_volume.step_up * input->scale);
   sbr_double3 world = {input->origin.x + (double)position.x, input->origin.y + (double)position.y,
       input->origin.z + (double)position.z};
   *motion = *of_body = (floor_motion){{0, 0, 0}, 0};

@@ -157,8 +157,9 @@ static void average(float values[TRACK], int width) {
 /* Half of the body's width, m: mean radius of the balls in it. */
 static float body_half_width(const sbri_rig *rig, float scale) {
   float sum = 0;
-  for (uint32_t i = 0; i < rig->girth.bumper_count; i++) sum += rig->girth.bumpers[i].radius;
-  return rig->girth.bumper_count ? scale * sum / (float)rig->girth.bumper_count : 0;
+  for (uint32_t i = 0; i < rig->wall_volume.wall_sphere_count; i++)
+    sum += rig->wall_volume.wall_spheres[i].radius;
+  return rig->wall_volume.wall_sphere_count ? scale * sum / (float)rig->wall_volume.wall_sphere_count : 0;
 }
 
 /* Highest ground across the path at a point. */

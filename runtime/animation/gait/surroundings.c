@@ -2,7 +2,8 @@
 
 #include "shapes/ground.h"
 
-static const float MARGIN = 0.5f;   /* fraction of a girth: search distance for colliders */
+static const float MARGIN =
+    0.5f; /* fraction of the radius of its wall volume: search distance for colliders */
 static const float ABOVE = 0.01f;   /* m; rays begin this far above a shape */
 static const float UPRIGHT = 0.01f; /* cosine; a steeper plane has no height */
 
@@ -13,10 +14,11 @@ static bool is_convex(const sbr_shape *shape) {
 
 bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider) {
   const sbri_collider *c = &around->colliders->at[collider];
-  if (!sbri_layers_collide(c->layer, c->mask, around->girth->layer, around->girth->mask)) return false;
+  if (!sbri_layers_collide(c->layer, c->mask, around->wall_volume->layer, around->wall_volume->mask))
+    return false;
   const sbri_collider *leader = sbri_collider_leader(around->colliders, collider);
   float cube = around->scale * around->scale * around->scale;
-  return !leader || leader->body.inverse_mass * around->girth->mass * cube < 1;
+  return !leader || leader->body.inverse_mass * around->wall_volume->mass * cube < 1;
 }
 
 /* Pose of a collider at the beginning or end of the tick. */
@@ -112,14 +114,14 @@ bool sbri_surroundings_bearer(
 
 void sbri_surroundings_find(const sbri_rig *rig, float scale, const sbri_collider_set *colliders,
     const sbr_ground *base, sbr_double3 position, sbri_surroundings *out) {
-  const sbri_girth *girth = &rig->girth;
+  const sbri_wall_volume *wall_volume = &rig->wall_volume;
   *out = (sbri_surroundings){.base = base,
-      .girth = girth,
+      .wall_volume = wall_volume,
       .scale = scale,
-      .overhead = position.y + (double)(girth->step_up * scale)};
+      .overhead = position.y + (double)(wall_volume->step_up * scale)};
   out->ground = (sbr_ground){.height = height, .user = out};
-  if (!girth->bumper_count || !colliders->tree.node_count) return;
-  float reach = girth->radius * (1 + MARGIN) * scale,
+  if (!wall_volume->wall_sphere_count || !colliders->tree.node_count) return;
+  float reach = wall_volume->radius * (1 + MARGIN) * scale,
         low = (float)sbri_ground_height(base, position.x, position.z, NULL);
   sbri_box box = sbri_box_grown(
       sbri_box_of_point(sbri_vec3((float)position.x, (float)position.y, (float)position.z)), reach);

@@ -14,7 +14,7 @@ typedef struct sbri_surroundings {
   sbr_ground ground; /* base and colliders combined, for the gait; its `user` is this struct */
   const sbr_ground *base;
   const sbri_collider_set *colliders; /* NULL: none is near */
-  const sbri_girth *girth;
+  const sbri_wall_volume *wall_volume;
   float scale;
   double overhead; /* m, world: surfaces above it are not ground */
 } sbri_surroundings;

@@ -1,8 +1,8 @@
 /* Walls: colliders that are too high to step on keep the body out.
  *
- * The balls of the rig's girth are pushed out of colliders one after the other: horizontally for a character
- * on the ground, in any direction for a swimmer or flier. The remaining velocity is along the wall. Slopes
- * that can be walked on are not walls; overhangs are walls for swimmers and fliers only. */
+ * The balls of the rig's wall_volume are pushed out of colliders one after the other: horizontally for a
+ * character on the ground, in any direction for a swimmer or flier. The remaining velocity is along the wall.
+ * Slopes that can be walked on are not walls; overhangs are walls for swimmers and fliers only. */
 #include "animation/gait/gait_state.h"
 #include "animation/gait/motion_kinds.h"
 #include "math/quat.h"
@@ -63,13 +63,14 @@ static sbf_vec3 middle_of(const sbri_gait_state *state) {
 
 static void resolve_colliders(body_move *m) {
   const sbri_surroundings *around = m->input->surroundings;
-  const sbri_girth *girth = &m->rig->girth;
+  const sbri_wall_volume *wall_volume = &m->rig->wall_volume;
   bool resolved = true;
   for (int pass = 0; pass < PASSES && resolved; pass++) {
     resolved = false;
-    for (uint32_t b = 0; b < girth->bumper_count; b++) {
-      float radius = girth->bumpers[b].radius * m->input->scale;
-      sbf_vec3 arm = sbri_rotate(m->rotation, sbri_scale(girth->bumpers[b].position, m->input->scale));
+    for (uint32_t b = 0; b < wall_volume->wall_sphere_count; b++) {
+      float radius = wall_volume->wall_spheres[b].radius * m->input->scale;
+      sbf_vec3 arm =
+          sbri_rotate(m->rotation, sbri_scale(wall_volume->wall_spheres[b].position, m->input->scale));
       sbf_vec3 middle = middle_of(m->state);
       sbri_box box = sbri_box_grown(sbri_box_of_point(sbri_add(middle, arm)), radius);
       sbri_bounds_walk walk;
@@ -87,10 +88,10 @@ static void resolve_colliders(body_move *m) {
   }
 }
 
-static float smallest(const sbri_girth *girth) {
-  float radius = girth->bumpers[0].radius;
-  for (uint32_t b = 1; b < girth->bumper_count; b++)
-    radius = girth->bumpers[b].radius < radius ? girth->bumpers[b].radius : radius;
+static float smallest(const sbri_wall_volume *wall_volume) {
+  float radius = wall_volume->wall_spheres[0].radius;
+  for (uint32_t b = 1; b < wall_volume->wall_sphere_count; b++)
+    radius = wall_volume->wall_spheres[b].radius < radius ? wall_volume->wall_spheres[b].radius : radius;
   return radius;
 }
 
@@ -103,7 +104,7 @@ bool sbri_walls_resolve(
       sbri_is_afloat(rig), false};
   /* Substeps of at most a sphere's size, so that no sphere passes through a wall. */
   sbf_vec3 displacement = sbri_sub(state->motion.position, from);
-  float parts = sbri_length(displacement) / (smallest(&rig->girth) * input->scale) + 1;
+  float parts = sbri_length(displacement) / (smallest(&rig->wall_volume) * input->scale) + 1;
   int count = parts < MAX_PARTS ? (int)parts : MAX_PARTS;
   state->motion.position = from;
   for (int k = 0; k < count; k++) {

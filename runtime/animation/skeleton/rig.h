@@ -84,23 +84,23 @@ typedef struct sbri_bone_chain {
   uint32_t first_state; /* index of its first bone among the bones of all chains */
 } sbri_bone_chain;
 
-enum { SBRI_MAX_LEGS = 16, SBRI_BELLY = 4, SBRI_BUMPERS = 48 };
+enum { SBRI_MAX_LEGS = 16, SBRI_BELLY = 4, SBRI_WALL_SPHERES = 48 };
 
 /* A ball inside the body that walls keep out, in the gait's rest pose; asset space. */
-typedef struct sbri_bumper {
+typedef struct sbri_wall_sphere {
   sbf_vec3 position;
   float radius;
-} sbri_bumper;
+} sbri_wall_sphere;
 
-/* Size of the body for collisions of the gait with colliders: animation/skeleton/rig_girth.c. */
-typedef struct sbri_girth {
-  sbri_bumper bumpers[SBRI_BUMPERS]; /* (bumper_count) */
-  uint32_t bumper_count;
+/* Size of the body for collisions of the gait with colliders: animation/skeleton/wall_volume.c. */
+typedef struct sbri_wall_volume {
+  sbri_wall_sphere wall_spheres[SBRI_WALL_SPHERES]; /* (wall_sphere_count) */
+  uint32_t wall_sphere_count;
   float step_up;        /* maximum height of a step up, m */
-  float radius;         /* of bumpers and feet about the origin, m */
+  float radius;         /* of wall_spheres and feet about the origin, m */
   float mass;           /* approximate mass, kg: the body pushes lighter colliders aside */
   uint32_t layer, mask; /* union over its bodies */
-} sbri_girth;
+} sbri_wall_volume;
 
 /* What rotates a bone relative to its parent. */
 typedef enum sbri_bone_role {
@@ -172,7 +172,7 @@ typedef struct sbri_rig {
   sbri_rig_chains chains;
   sbri_walks walks;
   sbri_rig_stand stand;
-  sbri_girth girth;
+  sbri_wall_volume wall_volume;
   sbri_rig_wave wave;
 } sbri_rig;
 

@@ -1,13 +1,13 @@
 #include "animation/skeleton/rig_make.h"
 
 #include "animation/skeleton/rig_belly.h"
-#include "animation/skeleton/rig_girth.h"
 #include "animation/skeleton/rig_limits.h"
 #include "animation/skeleton/rig_mass.h"
 #include "animation/skeleton/rig_soles.h"
 #include "animation/skeleton/rig_spine.h"
 #include "animation/skeleton/rig_tails.h"
 #include "animation/skeleton/rig_walks.h"
+#include "animation/skeleton/wall_volume.h"
 #include "math/quat.h"
 
 /* Fraction of a leg's stretch from rest that the lean of a long foot adds to its reach. */
@@ -276,5 +276,5 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   sbri_rig_find_belly(rig);
   sbri_walks_init(&rig->walks, rig, carve(&free_memory, sbri_walks_size(asset)));
   sbri_rig_find_spine(rig, carve(&free_memory, sbri_rig_spine_size(asset)));
-  sbri_rig_find_girth(rig);
+  sbri_rig_find_wall_volume(rig);
 }

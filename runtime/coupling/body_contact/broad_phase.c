@@ -101,8 +101,8 @@ static bool are_connected(const sbr_world *world, const sbri_contact_body *a, co
                                              b->body_index] == SBRI_REST_ADJACENT;
   const sbri_contact_body *soft = a->rigid ? b : a, *rigid = a->rigid ? a : b;
   const sbri_island *island = &model->islands[model->bodies[soft->body_index].island];
-  for (uint32_t i = 0; i < island->pins.carrier_count; i++)
-    if (island->pins.carriers[i] == rigid->body_index) return true;
+  for (uint32_t i = 0; i < island->pins.attachment_count; i++)
+    if (island->pins.attachments[i] == rigid->body_index) return true;
   return !rigid->is_dynamic && model->bodies[soft->body_index].is_pinned; /* its own bones are inside of it */
 }
 

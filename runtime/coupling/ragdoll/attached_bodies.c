@@ -37,7 +37,7 @@ bool sbri_can_attach(const sbri_character *c, uint32_t body) {
 /* Whether the island is attached to that body only. */
 static bool is_attached_to(const sbri_character *c, uint32_t island, uint32_t body) {
   const sbri_island *is = &c->model->islands[island];
-  return is->pins.carrier_count == 1 && is->pins.carriers[0] == body;
+  return is->pins.attachment_count == 1 && is->pins.attachments[0] == body;
 }
 
 /* Root mean square speed of the island's points relative to the body, m/s. */
@@ -101,18 +101,18 @@ static sbf_quat rotation_of(const sbri_rigid_body *is, const sbr_transform *pose
   return sbri_quat_normalize(sbri_quat_multiply(pose->rotation, sbri_quat_conjugate(is->axes)));
 }
 
-void sbri_burdens_begin(sbri_character *c, const sbri_rigid_tick *t, float step_s) {
+void sbri_attached_loads_begin(sbri_character *c, const sbri_rigid_tick *t, float step_s) {
   for (uint32_t b = 0; b < t->model->body_count; b++) {
-    sbri_attached_load *burden = &sbri_burdens(c)[b];
+    sbri_attached_load *attached_load = &sbri_attached_loads(c)[b];
     const sbri_rigid_body_state *body = &t->bodies[b];
     double axes[3][3];
-    burden->is_attached =
-        burden->needed_steps * step_s > LONGEST * t->tick_s && step_s <= LONGEST * longest_step_s(c);
-    if (!burden->is_attached) continue;
-    burden->begin = body->pose, burden->velocity = body->velocity,
-    burden->angular_momentum = body->angular_momentum;
+    attached_load->is_attached =
+        attached_load->needed_steps * step_s > LONGEST * t->tick_s && step_s <= LONGEST * longest_step_s(c);
+    if (!attached_load->is_attached) continue;
+    attached_load->begin = body->pose, attached_load->velocity = body->velocity,
+    attached_load->angular_momentum = body->angular_momentum;
     axes_of(rotation_of(&t->model->bodies[b], &body->pose), axes);
-    rotate_mass(&t->model->attached[b], axes, burden->mass);
+    rotate_mass(&t->model->attached[b], axes, attached_load->mass);
   }
 }
 
@@ -124,7 +124,7 @@ static void apply_impulse(const sbri_rigid_tick *t, uint32_t b, sbf_quat rotatio
   float moments[3][3];
   double mass[6][6], x[6] = {(double)impulse.x, (double)impulse.y, (double)impulse.z, (double)moment.x,
                          (double)moment.y, (double)moment.z};
-  memcpy(mass, t->pull.burdens[b].mass, sizeof mass);
+  memcpy(mass, t->external.attached_loads[b].mass, sizeof mass);
   sbri_rigid_compute_moments(is->inertia, rotation, moments);
   for (int k = 0; k < 3; k++) {
     mass[k][k] += (double)is->mass;
@@ -140,7 +140,7 @@ static void apply_impulse(const sbri_rigid_tick *t, uint32_t b, sbf_quat rotatio
       sbri_add(body->angular_momentum, sbri_angular_momentum_from_velocity(is, rotation, *turn));
 }
 
-void sbri_burden_apply_impulse(const sbri_rigid_tick *t, uint32_t b, const sbri_reaction *changes) {
+void sbri_attached_load_apply_impulse(const sbri_rigid_tick *t, uint32_t b, const sbri_reaction *changes) {
   sbf_vec3 velocity, turn;
   apply_impulse(t, b, t->bodies[b].pose.rotation, changes->impulse, changes->moment, &velocity, &turn);
 }
@@ -199,13 +199,13 @@ static void move_points(const sbri_character *c, const sbri_island *island, cons
 }
 
 /* Momentum that the system gave to the soft body, minus the momentum that its points took. */
-static void find_remainder(const sbri_attached_load *burden, const change *changes,
+static void find_remainder(const sbri_attached_load *attached_load, const change *changes,
     const sbri_lane_sums *applied, sbf_vec3 *impulse, sbf_vec3 *moment) {
   const double x[6] = {(double)changes->velocity.x, (double)changes->velocity.y, (double)changes->velocity.z,
       (double)changes->angular_velocity.x, (double)changes->angular_velocity.y,
       (double)changes->angular_velocity.z};
   double total[6];
-  for (int i = 0; i < 6; i++) total[i] = sbri_dot6(burden->mass[i], x);
+  for (int i = 0; i < 6; i++) total[i] = sbri_dot6(attached_load->mass[i], x);
   *impulse =
       sbri_sub(sbri_vec3((float)total[0], (float)total[1], (float)total[2]), sbri_lanes_force(applied));
   *moment =
@@ -220,29 +220,29 @@ static void move_all_points(
 }
 
 /* The remainder of the first distribution is distributed once more; the rest of that goes to the bone. */
-void sbri_burdens_end(sbri_character *c, const sbri_rigid_tick *t, float step_s, float weight_s) {
+void sbri_attached_loads_end(sbri_character *c, const sbri_rigid_tick *t, float step_s, float weight_s) {
   for (uint32_t b = 0; b < t->model->body_count; b++) {
-    const sbri_attached_load *burden = &sbri_burdens(c)[b];
+    const sbri_attached_load *attached_load = &sbri_attached_loads(c)[b];
     const sbri_rigid_body *is = &t->model->bodies[b];
     sbri_rigid_body_state *body = &t->bodies[b];
     sbri_lane_sums applied = {{{0}}, {{0}}}, again = applied;
     sbf_vec3 impulse, moment;
-    if (!burden->is_attached) continue;
+    if (!attached_load->is_attached) continue;
     sbf_vec3 fall = sbri_scale(t->gravity, weight_s * is->source->gravity_scale);
-    change changes = {.velocity = sbri_sub(sbri_sub(body->velocity, burden->velocity), fall),
-        .angular_velocity = sbri_angular_velocity_from_momentum(
-            is, burden->begin.rotation, sbri_sub(body->angular_momentum, burden->angular_momentum)),
-        .about = burden->begin.position,
-        .rotation = rotation_of(is, &burden->begin),
+    change changes = {.velocity = sbri_sub(sbri_sub(body->velocity, attached_load->velocity), fall),
+        .angular_velocity = sbri_angular_velocity_from_momentum(is, attached_load->begin.rotation,
+            sbri_sub(body->angular_momentum, attached_load->angular_momentum)),
+        .about = attached_load->begin.position,
+        .rotation = rotation_of(is, &attached_load->begin),
         .step_s = step_s};
     move_all_points(c, b, &changes, &applied);
-    find_remainder(burden, &changes, &applied, &impulse, &moment);
+    find_remainder(attached_load, &changes, &applied, &impulse, &moment);
     sbf_vec3 displacement = sbri_sub(body->pose.position, changes.about);
-    apply_impulse(t, b, burden->begin.rotation, impulse, sbri_sub(moment, sbri_cross(displacement, impulse)),
-        &changes.velocity, &changes.angular_velocity);
+    apply_impulse(t, b, attached_load->begin.rotation, impulse,
+        sbri_sub(moment, sbri_cross(displacement, impulse)), &changes.velocity, &changes.angular_velocity);
     changes.about = body->pose.position, changes.step_s = 0; /* its motion is already final */
     move_all_points(c, b, &changes, &again);
-    find_remainder(burden, &changes, &again, &impulse, &moment);
+    find_remainder(attached_load, &changes, &again, &impulse, &moment);
     body->velocity = sbri_add_scaled(body->velocity, impulse, is->inverse_mass);
     body->angular_momentum = sbri_add(body->angular_momentum, moment);
   }

@@ -12,11 +12,11 @@
 
 /* Velocity of a point fixed to a frame; false where the frame belongs to no simulated body. */
 static bool add_velocity(const sbri_character *c, uint32_t frame, float weight, sbf_vec3 at, sbf_vec3 *sum) {
-  int32_t carrier = c->model->carrier_of_frame[frame];
-  if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return false;
-  const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[carrier];
+  int32_t attachment = c->model->rigid_body_of_frame[frame];
+  if (attachment < 0 || !sbri_rigid_is_simulated(c, (uint32_t)attachment)) return false;
+  const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[attachment];
   sbf_vec3 turn = sbri_angular_velocity_from_momentum(
-      &c->model->rigid.bodies[carrier], body->pose.rotation, body->angular_momentum);
+      &c->model->rigid.bodies[attachment], body->pose.rotation, body->angular_momentum);
   sbf_vec3 v = sbri_add(body->velocity, sbri_cross(turn, sbri_sub(at, body->pose.position)));
   *sum = sbri_add_scaled(*sum, v, weight);
   return true;
@@ -52,8 +52,8 @@ static bool set_bone_velocities(sbri_character *c, const sbri_island *island) {
 }
 
 static void add_bones(const sbri_character *c, const sbri_island *island, sbri_whole_momentum *to) {
-  for (uint32_t k = 0; k < island->pins.carrier_count; k++) {
-    uint32_t b = island->pins.carriers[k];
+  for (uint32_t k = 0; k < island->pins.attachment_count; k++) {
+    uint32_t b = island->pins.attachments[k];
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     if (!sbri_rigid_is_simulated(c, b)) continue;
     const float angular_velocity[3] = {
@@ -85,8 +85,8 @@ static void find_mass_matrix(
   for (uint32_t slot = 0; slot < island->free_count; slot++)
     add_moments(
         d, (double)island->masses[slot], center, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
-  for (uint32_t k = 0; k < island->pins.carrier_count; k++) {
-    uint32_t b = island->pins.carriers[k];
+  for (uint32_t k = 0; k < island->pins.attachment_count; k++) {
+    uint32_t b = island->pins.attachments[k];
     const sbr_transform *pose = &sbri_rigid_bodies(c)[b].pose;
     float moments[3][3];
     if (!sbri_rigid_is_simulated(c, b)) continue;
@@ -108,8 +108,8 @@ static void apply_change(
     if (!(island->masses[slot] > 0)) continue;
     v[0] += more.x, v[SBRI_BLOCK] += more.y, v[2 * SBRI_BLOCK] += more.z;
   }
-  for (uint32_t k = 0; k < island->pins.carrier_count; k++) {
-    uint32_t b = island->pins.carriers[k];
+  for (uint32_t k = 0; k < island->pins.attachment_count; k++) {
+    uint32_t b = island->pins.attachments[k];
     sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbf_vec3 more = sbri_add(change, sbri_cross(turn, sbri_sub(body->pose.position, center)));

@@ -43,7 +43,7 @@ void sbri_coupled_begin(sbri_coupled *group) {
   sbri_character *c = group->character;
   group->any = group->is_touching = false;
   group->steps = 1;
-  memset(sbri_burdens(c), 0, c->model->rigid.body_count * sizeof(sbri_attached_load));
+  memset(sbri_attached_loads(c), 0, c->model->rigid.body_count * sizeof(sbri_attached_load));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!sbri_island_is_coupled(c, i)) continue;
     group->any = true;
@@ -64,9 +64,9 @@ void sbri_coupled_begin(sbri_coupled *group) {
 
 /* ---- In the tick ---- */
 
-static void apply_reaction(const sbri_character *c, int32_t carrier, sbf_vec3 at, sbf_vec3 impulse) {
-  if (carrier < 0) return;
-  sbri_reaction *r = &sbri_reactions(c)[carrier];
+static void apply_reaction(const sbri_character *c, int32_t attachment, sbf_vec3 at, sbf_vec3 impulse) {
+  if (attachment < 0) return;
+  sbri_reaction *r = &sbri_reactions(c)[attachment];
   r->impulse = sbri_add(r->impulse, impulse);
   r->moment = sbri_add(r->moment, sbri_cross(sbri_sub(at, r->about), impulse));
 }
@@ -74,23 +74,23 @@ static void apply_reaction(const sbri_character *c, int32_t carrier, sbf_vec3 at
 /* Applies the reaction of a point's damping to the rigid bodies of its drivers. */
 static void apply_driver_reaction(
     const sbri_character *c, const sbri_body *body, uint32_t index, sbf_vec3 at, sbf_vec3 impulse) {
-  const int32_t *carriers = c->model->carrier_of_frame;
+  const int32_t *attachments = c->model->rigid_body_of_frame;
   if (!body->drivers) {
-    apply_reaction(c, carriers[body->driver_frame], at, impulse);
+    apply_reaction(c, attachments[body->driver_frame], at, impulse);
     return;
   }
   const sbri_driver *driver = &body->drivers[index];
   for (int k = 0; k < SBRI_DRIVERS; k++)
     if (driver->weights[k] > 0)
-      apply_reaction(c, carriers[driver->frames[k]], at, sbri_scale(impulse, driver->weights[k]));
+      apply_reaction(c, attachments[driver->frames[k]], at, sbri_scale(impulse, driver->weights[k]));
 }
 
 /* Reduces a decay where the rigid body is lighter than the soft body, so that relative velocity reaches zero
  * and does not change sign, as in an implicit step. */
 static float inverse_mass_along(const sbri_character *c, uint32_t frame, float removed) {
-  int32_t carrier = c->model->carrier_of_frame[frame];
-  if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return 1;
-  return 1 / (1 + removed * c->model->rigid.pinned_weights[carrier]);
+  int32_t attachment = c->model->rigid_body_of_frame[frame];
+  if (attachment < 0 || !sbri_rigid_is_simulated(c, (uint32_t)attachment)) return 1;
+  return 1 / (1 + removed * c->model->rigid.pinned_weights[attachment]);
 }
 
 static float inverse_mass_of_drivers(
@@ -112,8 +112,8 @@ static void damp_uniform(
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   const float *along = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
-  int32_t carrier = c->model->carrier_of_frame[body->driver_frame];
-  sbf_vec3 about = carrier >= 0 ? sbri_reactions(c)[carrier].about : sbri_vec3(0, 0, 0);
+  int32_t attachment = c->model->rigid_body_of_frame[body->driver_frame];
+  sbf_vec3 about = attachment >= 0 ? sbri_reactions(c)[attachment].about : sbri_vec3(0, 0, 0);
   sbri_lane_sums removed_sums = {{{0}}, {{0}}};
   for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
     float *at = sbri_triple(velocities, slot);
@@ -128,8 +128,8 @@ static void damp_uniform(
     sbri_lane_sums_add(
         &removed_sums, slot % SBRI_BLOCK, x, (sbri_wide3){m * change.x, m * change.y, m * change.z});
   }
-  if (carrier < 0) return;
-  sbri_reaction *r = &sbri_reactions(c)[carrier];
+  if (attachment < 0) return;
+  sbri_reaction *r = &sbri_reactions(c)[attachment];
   r->impulse = sbri_sub(r->impulse, sbri_lanes_force(&removed_sums));
   r->moment = sbri_sub(r->moment, sbri_lanes_moment(&removed_sums));
 }
@@ -207,7 +207,7 @@ static sbri_reaction no_reaction(
   const sbri_rigid_body *is = &t->model->bodies[b];
   const sbf_vec3 *turns = &is->inverse_inertia;
   float max = turns->x > turns->y ? turns->x : turns->y;
-  float fraction = sbri_rigid_is_simulated(c, b) ? 1 / sbri_rigid_mass_factor(&t->pull, b, step_s) : 0;
+  float fraction = sbri_rigid_is_simulated(c, b) ? 1 / sbri_rigid_mass_factor(&t->external, b, step_s) : 0;
   return (sbri_reaction){.about = t->bodies[b].pose.position,
       .inverse_mass = fraction * is->inverse_mass,
       .inverse_inertia = fraction * (max > turns->z ? max : turns->z)};
@@ -232,7 +232,7 @@ void sbri_coupled_before_step(
   group->weight_s = weight_s;
   sbf_vec3 velocity_change = sbri_scale(t->gravity, group->falls ? weight_s : 0);
   float step_s = t->tick_s * (to - from);
-  sbri_burdens_begin(c, t, step_s);
+  sbri_attached_loads_begin(c, t, step_s);
   for (uint32_t b = 0; b < t->model->body_count; b++) sbri_reactions(c)[b] = no_reaction(c, t, b, step_s);
   sbri_rigid_pose(c, group->animated, from, 0, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
   sbri_deltas_make(c, sbri_stepped_pose(c), from, sbri_previous_deltas(c));
@@ -244,11 +244,11 @@ void sbri_coupled_before_step(
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbri_rigid_body_state *body = &t->bodies[b];
     const sbri_reaction *r = &sbri_reactions(c)[b];
-    if (sbri_burdens(c)[b].is_attached) {
-      sbri_burden_apply_impulse(t, b, r);
+    if (sbri_attached_loads(c)[b].is_attached) {
+      sbri_attached_load_apply_impulse(t, b, r);
       continue;
     }
-    float fraction = 1 / sbri_rigid_mass_factor(&t->pull, b, step_s);
+    float fraction = 1 / sbri_rigid_mass_factor(&t->external, b, step_s);
     body->velocity = sbri_add_scaled(body->velocity, r->impulse, fraction * t->model->bodies[b].inverse_mass);
     body->angular_momentum = sbri_add_scaled(body->angular_momentum, r->moment, fraction);
   }
@@ -268,8 +268,8 @@ void sbri_coupled_after_step(
     if (!(r->inverse_mass > 0)) continue;
     sbf_vec3 more = sbri_sub(r->shift_moment, sbri_cross(r->shift, t->bodies[b].velocity));
     t->bodies[b].angular_momentum = sbri_add(t->bodies[b].angular_momentum, more);
-    sbri_burdens(c)[b].angular_momentum =
-        sbri_add(sbri_burdens(c)[b].angular_momentum, more); /* shared with none */
+    sbri_attached_loads(c)[b].angular_momentum =
+        sbri_add(sbri_attached_loads(c)[b].angular_momentum, more); /* shared with none */
   }
   if (!group->falls || weight_s == group->weight_s) return;
   for (uint32_t i = 0; i < c->model->island_count; i++) {

@@ -60,18 +60,18 @@ static void request_steps(sbri_coupled *group, float steps) {
 }
 
 static bool may_be_attached(const sbri_character *c, const sbri_island *island) {
-  return island->pins.carrier_count == 1 && sbri_can_attach(c, island->pins.carriers[0]);
+  return island->pins.attachment_count == 1 && sbri_can_attach(c, island->pins.attachments[0]);
 }
 
 /* The number of steps that the tick needs. Bones with implicitly coupled bodies are checked last, when those
  * of all others are known. */
-static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
-  if (carrier < 0 || !sbri_can_attach(group->character, (uint32_t)carrier)) {
+static void need_steps(sbri_coupled *group, float steps, int32_t attachment) {
+  if (attachment < 0 || !sbri_can_attach(group->character, (uint32_t)attachment)) {
     request_steps(group, steps);
     return;
   }
-  sbri_attached_load *burden = &sbri_burdens(group->character)[carrier];
-  burden->needed_steps = steps > burden->needed_steps ? steps : burden->needed_steps;
+  sbri_attached_load *attached_load = &sbri_attached_loads(group->character)[attachment];
+  attached_load->needed_steps = steps > attached_load->needed_steps ? steps : attached_load->needed_steps;
 }
 
 /* ---- By displacement ---- */
@@ -132,8 +132,8 @@ static void request_steps_of_impact(sbri_coupled *group, const sbri_island_tick 
 
 void sbri_coupled_request_steps(sbri_coupled *group, const sbri_island_tick *tick) {
   const sbri_island *island = tick->island;
-  int32_t carrier = island->pins.carrier_count == 1 ? (int32_t)island->pins.carriers[0] : -1;
-  need_steps(group, (float)steps_of(tick, tick_of(group)), carrier);
+  int32_t attachment = island->pins.attachment_count == 1 ? (int32_t)island->pins.attachments[0] : -1;
+  need_steps(group, (float)steps_of(tick, tick_of(group)), attachment);
   request_steps_of_impact(group, tick);
 }
 
@@ -153,7 +153,7 @@ void sbri_coupled_request_steps_of_bones(sbri_coupled *group) {
     float steps = swung_steps(c, b, tick_of(group));
     if (!sbri_rigid_is_simulated(c, b)) continue;
     need_steps(group, steps < SBRI_RIGID_MAX_SUBSTEPS ? steps : SBRI_RIGID_MAX_SUBSTEPS, (int32_t)b);
-    float needed = sbri_burdens(c)[b].needed_steps;
+    float needed = sbri_attached_loads(c)[b].needed_steps;
     if (!(needed > (float)group->steps)) continue;
     float bearing = sbri_bearing_steps(c, b, tick_of(group));
     request_steps(group, needed < bearing ? needed : bearing);
@@ -170,8 +170,8 @@ void sbri_coupled_request_steps_now(sbri_coupled *group, const sbri_island_tick 
   if (island->scheme->sweeps || may_be_attached(c, island)) return;
   request_steps(group, (float)steps_of(tick, tick_of(group)));
   double stiffened_s = sbri_stiffened_time(tick, tick_of(group));
-  for (uint32_t i = 0; i < island->pins.carrier_count; i++) {
-    uint32_t b = island->pins.carriers[i];
+  for (uint32_t i = 0; i < island->pins.attachment_count; i++) {
+    uint32_t b = island->pins.attachments[i];
     if (sbri_rigid_is_simulated(c, b))
       request_steps(
           group, (float)stiffened_s * sqrtf(c->model->rigid.pinned_squares[b]) / MAX_STIFFENED_SWING);

@@ -109,11 +109,11 @@ bool sbri_can_attach(const sbri_character *c, uint32_t body);
 float sbri_bearing_steps(const sbri_character *c, uint32_t body, float tick_s);
 /* Before a step: selects the bodies whose attached masses are included, by `needed_steps`, and computes these
  * masses. */
-void sbri_burdens_begin(sbri_character *c, const sbri_rigid_tick *tick, float step_s);
+void sbri_attached_loads_begin(sbri_character *c, const sbri_rigid_tick *tick, float step_s);
 /* Adds the impulse of attached soft bodies to their body. */
-void sbri_burden_apply_impulse(const sbri_rigid_tick *tick, uint32_t body, const sbri_reaction *by);
+void sbri_attached_load_apply_impulse(const sbri_rigid_tick *tick, uint32_t body, const sbri_reaction *by);
 /* After the step: moves attached points by the velocity changes of their bones. */
-void sbri_burdens_end(sbri_character *c, const sbri_rigid_tick *tick, float step_s, float weight_s);
+void sbri_attached_loads_end(sbri_character *c, const sbri_rigid_tick *tick, float step_s, float weight_s);
 
 /* ---- coupling/ragdoll/rigid_parts.c ---- */
 

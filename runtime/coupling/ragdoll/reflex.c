@@ -41,10 +41,10 @@ void sbri_reflex_begin(sbri_character *c, const sbr_fall_definition *fall) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   drive->posture = SBR_POSTURE_FALLING;
   drive->posture_s = drive->still_s = 0;
-  drive->limp_fraction = sbri_clamp(fall->drive_fraction, 0, 1);
+  drive->drive_fraction = sbri_clamp(fall->drive_fraction, 0, 1);
   drive->rest_s = sbri_clamp(fall->rest_s, 0, 1e6f);
   drive->rise_s = sbri_clamp(fall->rise_s, 0.1f, 1e6f);
-  set_all(c, SBR_RIGID_DRIVEN, drive->limp_fraction);
+  set_all(c, SBR_RIGID_DRIVEN, drive->drive_fraction);
 }
 
 void sbri_reflex_end(sbri_character *c) {
@@ -142,7 +142,7 @@ bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
   if (up)
     sbri_reflex_end(c);
   else
-    set_all(c, SBR_RIGID_DRIVEN, drive->limp_fraction + (1 - drive->limp_fraction) * w);
+    set_all(c, SBR_RIGID_DRIVEN, drive->drive_fraction + (1 - drive->drive_fraction) * w);
   return false;
 }
 
@@ -160,13 +160,13 @@ void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *t, float st
     const sbri_rigid_body *is = &t->model->bodies[b];
     sbri_rigid_body_state *body = &t->bodies[b];
     sbf_vec3 turn = sbri_angular_velocity_from_momentum(is, body->pose.rotation, body->angular_momentum);
-    sbf_vec3 pull = sbri_scale(sbri_sub(t->targets[b].position, body->pose.position), w * w);
+    sbf_vec3 acceleration = sbri_scale(sbri_sub(t->targets[b].position, body->pose.position), w * w);
     sbf_vec3 twist = sbri_scale(rotation_to(&t->targets[b], &body->pose), w * w);
-    pull = bounded(sbri_add_scaled(pull, body->velocity, -2 * w), fraction * MAX_M_S2);
+    acceleration = bounded(sbri_add_scaled(acceleration, body->velocity, -2 * w), fraction * MAX_M_S2);
     twist = bounded(sbri_add_scaled(twist, turn, -2 * w), fraction * MAX_RAD_S2);
     float load = 1 + t->model->attached_masses[b] * is->inverse_mass;
-    pull = sbri_add_scaled(pull, t->gravity, -fraction * is->source->gravity_scale * load);
-    body->velocity = sbri_add_scaled(body->velocity, pull, step_s);
+    acceleration = sbri_add_scaled(acceleration, t->gravity, -fraction * is->source->gravity_scale * load);
+    body->velocity = sbri_add_scaled(body->velocity, acceleration, step_s);
     body->angular_momentum =
         sbri_angular_momentum_from_velocity(is, body->pose.rotation, sbri_add_scaled(turn, twist, step_s));
   }

@@ -11,8 +11,8 @@ bool sbri_island_is_coupled(const sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   if (island->scheme->forceless || !c->model->rigid.body_count || !sbri_rigid_drive(c)->any_dynamic)
     return false;
-  for (uint32_t i = 0; i < island->pins.carrier_count; i++)
-    if (sbri_rigid_is_simulated(c, island->pins.carriers[i])) return true;
+  for (uint32_t i = 0; i < island->pins.attachment_count; i++)
+    if (sbri_rigid_is_simulated(c, island->pins.attachments[i])) return true;
   return false;
 }
 
@@ -117,7 +117,7 @@ void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, flo
   const sbr_transform *before = sbri_previous_pose(c);
   for (uint32_t i = 0; i < model->frame_count; i++) {
     uint32_t frame = i < model->rig.bones.count ? model->rig.bones.subtree[i] : i;
-    int32_t body = model->carrier_of_frame[frame];
+    int32_t body = model->rigid_body_of_frame[frame];
     if (body < 0 || !sbri_rigid_is_simulated(c, (uint32_t)body)) {
       pose[frame] = fraction < 1 ? blend(&before[frame], &animated[frame], fraction) : animated[frame];
       continue;

@@ -86,7 +86,7 @@ static void begin_step(void *user, const sbri_rigid_tick *tick, float from, floa
 static void end_step(void *user, const sbri_rigid_tick *tick, float step_s, float weight_s) {
   const sbri_coupled *group = user;
   if (group->any) sbri_coupled_after_step(group, tick, step_s, weight_s);
-  if (group->any) sbri_burdens_end(group->character, tick, step_s, weight_s);
+  if (group->any) sbri_attached_loads_end(group->character, tick, step_s, weight_s);
 }
 
 static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
@@ -132,11 +132,11 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   parts->tick = tick_of(world, c);
   sbri_coupled_begin(&parts->coupled);
   bool any = parts->coupled.any;
-  parts->tick.pull = (sbri_rigid_pull){.act = begin_step,
-      .acted = end_step,
+  parts->tick.external = (sbri_rigid_external_forces){.before_step = begin_step,
+      .after_step = end_step,
       .user = &parts->coupled,
       .squares = any ? model->pinned_squares : NULL,
-      .burdens = any ? sbri_burdens(c) : NULL,
+      .attached_loads = any ? sbri_attached_loads(c) : NULL,
       .steps = parts->coupled.steps};
   sbri_rigid_begin(&parts->tick, &parts->work);
   return true;

@@ -108,7 +108,7 @@ void soft_character_make(soft_character *one) {
     one->placement.flat_ground_y = one->placement.shown_at.origin.y;
   }
   soft_character_unmake(one);
-  pose_driver_forget(one);
+  pose_driver_clear(one);
   if (inside && asset && soft_asset_of(asset)) {
     const soft_settings *s = &one->settings;
     sbf_vec3 g = soft_asset_of(asset)->environment.gravity;

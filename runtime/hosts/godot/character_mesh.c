@@ -181,7 +181,7 @@ void character_mesh_free(character_mesh *mesh) {
 
 /* A key is the mesh's name, a slash and the surface's number. Returns false where there is no such surface.
  */
-static bool dress_surface(
+static bool apply_surface_material(
     character_mesh *mesh, const soft_character *one, const gd_variant *key, gd_variant material) {
   char text[256];
   gd_as_text(key, text, sizeof text);
@@ -212,7 +212,7 @@ void character_mesh_apply_materials(character_mesh *mesh, const soft_character *
     bool is_material =
         !gd_as_object(&material) || gd_take_bool(GD_CALL(&material, "is_class", gd_string("Material")));
     if (!is_material) gd_assign(&material, gd_nil());
-    if (!dress_surface(mesh, one, &key, material) || !is_material) {
+    if (!apply_surface_material(mesh, one, &key, material) || !is_material) {
       char text[256], message[512];
       gd_as_text(&key, text, sizeof text);
       snprintf(message, sizeof message, "surface_materials: %s: %s", text,

@@ -71,7 +71,8 @@ static gd_variant described(const soft_character *one, const sbr_contact_event *
       &made, "normal", gd_vector3((sbf_vec3){side * e->normal.x, side * e->normal.y, side * e->normal.z}));
   gd_set_key(&made, "impulse", gd_float((double)e->impulse));
   gd_set_key(&made, "with",
-      other ? gd_object(gd_as_object(&other->node)) : physics_bodies_object(one->bodies, others->collider));
+      other ? gd_object(gd_as_object(&other->node))
+            : physics_bodies_object(one->physics.bodies, others->collider));
   return made;
 }
 

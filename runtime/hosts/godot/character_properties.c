@@ -140,7 +140,8 @@ static void set_velocity(void *self, const gd_variant *const *arguments, gd_vari
 static void get_pose_source(void *self, const gd_variant *const *arguments, gd_variant *result) {
   const soft_character *one = self;
   (void)arguments;
-  gd_assign(result, one->pose ? gd_copy(&one->pose->path) : gd_empty(GDEXTENSION_VARIANT_TYPE_NODE_PATH));
+  gd_assign(result,
+      one->pose_driver ? gd_copy(&one->pose_driver->path) : gd_empty(GDEXTENSION_VARIANT_TYPE_NODE_PATH));
 }
 
 static void set_pose_source(void *self, const gd_variant *const *arguments, gd_variant *result) {
@@ -149,7 +150,7 @@ static void set_pose_source(void *self, const gd_variant *const *arguments, gd_v
   (void)result;
   if (!pose) return;
   gd_assign(&pose->path, gd_copy(arguments[0]));
-  pose_driver_forget(one);
+  pose_driver_clear(one);
   pose->warned = false;
   if (one->model && pose_driver_is_used(one) != (soft_model_pose(one->model) != NULL))
     soft_character_make(one);

@@ -25,7 +25,7 @@ static void deinitialize(void *userdata, GDExtensionInitializationLevel level) {
   if (level != GDEXTENSION_INITIALIZATION_SCENE) return;
   asset_loader_end();
   for (int i = CLASSES; i-- > 0;) gd_class_unregister(classes[i]);
-  gd_forget_names();
+  gd_free_names();
 }
 
 EXPORTED GDExtensionBool sbfmt_godot_begin(GDExtensionInterfaceGetProcAddress get,

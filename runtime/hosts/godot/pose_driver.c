@@ -15,13 +15,13 @@ pose_driver *pose_driver_of(soft_character *one) {
   if (one->pose_driver) return one->pose_driver;
   one->pose_driver = calloc(1, sizeof *one->pose_driver);
   if (!one->pose_driver) return gd_error("no memory for a character's pose"), NULL;
-  one->pose->path = gd_empty(GDEXTENSION_VARIANT_TYPE_NODE_PATH);
+  one->pose_driver->path = gd_empty(GDEXTENSION_VARIANT_TYPE_NODE_PATH);
   one->pose_driver->weight = 1;
   one->pose_driver->sent_weight = -1;
   return one->pose_driver;
 }
 
-void pose_driver_forget(soft_character *one) {
+void pose_driver_clear(soft_character *one) {
   if (!one->pose_driver) return;
   free(one->pose_driver->bones);
   one->pose_driver->bones = NULL;
@@ -31,7 +31,7 @@ void pose_driver_forget(soft_character *one) {
 
 void pose_driver_free(soft_character *one) {
   if (!one->pose_driver) return;
-  pose_driver_forget(one);
+  pose_driver_clear(one);
   gd_free(&one->pose_driver->path);
   free(one->pose_driver);
   one->pose_driver = NULL;
@@ -115,7 +115,7 @@ static void copy_skeleton(soft_character *one, pose_clip *clip) {
     soft_character_error(
         one, "pose_source is not a Skeleton3D or does not exist: bones use their own animation");
   pose->warned = !good;
-  if (!good) pose_driver_forget(one);
+  if (!good) pose_driver_clear(one);
   if (good && find_bones(one, &skeleton))
     for (uint32_t i = 0; i < one->model->asset->bones.count; i++)
       if (pose->bones[i] >= 0) {

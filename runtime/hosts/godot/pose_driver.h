@@ -36,7 +36,7 @@ bool pose_driver_is_used(const soft_character *one);
 /* Before a step of the world. */
 void pose_driver_prepare(soft_character *one, float frame_s);
 /* The character is made anew. */
-void pose_driver_forget(soft_character *one);
+void pose_driver_clear(soft_character *one);
 
 extern const gd_method soft_character_pose_methods[];
 

@@ -29,7 +29,7 @@ GDExtensionConstStringNamePtr gd_string_name(const char *literal) {
   return &names[at].name;
 }
 
-void gd_forget_names(void) {
+void gd_free_names(void) {
   GDExtensionPtrDestructor destroy = gd.variant_get_ptr_destructor(GDEXTENSION_VARIANT_TYPE_STRING_NAME);
   for (uint32_t i = 0; i < NAME_CAPACITY; i++)
     if (names[i].literal) destroy(&names[i].name);

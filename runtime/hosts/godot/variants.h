@@ -105,9 +105,9 @@ gd_variant gd_call_with(const gd_variant *self, const char *method, uint32_t cou
 gd_variant gd_new(const char *class_name);
 gd_variant gd_singleton(const char *name);
 
-/* A StringName of a literal: shared, kept until gd_forget_names. */
+/* A StringName of a literal: shared, kept until gd_free_names. */
 GDExtensionConstStringNamePtr gd_string_name(const char *literal);
-void gd_forget_names(void);
+void gd_free_names(void);
 /* Whether a StringName equals that text. */
 bool gd_is_name(GDExtensionConstStringNamePtr name, const char *literal);
 

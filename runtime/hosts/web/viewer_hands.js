@@ -22,10 +22,10 @@ export class Hands extends Stage {
   }
 
   steer() {
-    const wish = { forward: 0, turn: 0, sideways: 0 };
-    for (const key of this.keys) wish[MOVES[key][0]] += MOVES[key][1];
+    const drive = { forward: 0, turn: 0, sideways: 0 };
+    for (const key of this.keys) drive[MOVES[key][0]] += MOVES[key][1];
     const speed = this.choices.speed * this.size;
-    this.character.drive(wish.forward * speed, wish.turn * 0.9, wish.sideways * speed);
+    this.character.drive(drive.forward * speed, drive.turn * 0.9, drive.sideways * speed);
   }
 
   /** Takes hold of what lies under the pointer; false where that is nothing. */

@@ -57,14 +57,14 @@ SBRI_INLINE sbri_descent_edge sbri_descent_spring(const sbri_island_tick *t, con
     const float *slack, uint32_t lane, sbri_wide3 x, sbri_descent_sum *s) {
   sbri_wide3 d = sbri_wide3_sub(sbri_wide_gather(t->positions, cell->others + lane), x);
   sbri_wide square = sbri_wide3_dot(d, d) + sbri_wide_all(SBRI_LENGTH_FLOOR);
-  sbri_wide k = sbri_wide_load(cell->stiffness + lane), pull = sbri_wide_load(cell->pull + lane);
-  sbri_wide pulls = k - pull / sbri_wide_sqrt(square), zero = sbri_wide_all(0), one = sbri_wide_all(1);
+  sbri_wide k = sbri_wide_load(cell->stiffness + lane), rest_force = sbri_wide_load(cell->rest_force + lane);
+  sbri_wide factor = k - rest_force / sbri_wide_sqrt(square), zero = sbri_wide_all(0), one = sbri_wide_all(1);
   if (slack) {
-    sbri_wide fraction = sbri_wide_select(pulls < zero, one - sbri_wide_load(slack + lane), one);
-    k = k * fraction, pulls = pulls * fraction;
+    sbri_wide fraction = sbri_wide_select(factor < zero, one - sbri_wide_load(slack + lane), one);
+    k = k * fraction, factor = factor * fraction;
   }
-  sbri_wide across = sbri_wide_max(pulls, zero);
-  s->force = sbri_wide3_add(s->force, sbri_wide3_scale(d, pulls));
+  sbri_wide across = sbri_wide_max(factor, zero);
+  s->force = sbri_wide3_add(s->force, sbri_wide3_scale(d, factor));
   sbri_descent_add(s, across, (k - across) / square, d);
   return (sbri_descent_edge){d, square};
 }

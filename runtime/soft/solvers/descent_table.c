@@ -83,7 +83,7 @@ static void fill_spring(descent_maker *m, uint32_t number, uint32_t lane, uint32
   ((float *)m->slack.at)[(size_t)number * SBRI_BLOCK + lane] = s->slack;
   cell->others[lane] = element % 4 ? s->a : s->b;
   cell->stiffness[lane] = s->stiffness_n_m;
-  cell->pull[lane] = s->stiffness_n_m * s->rest_length_m;
+  cell->rest_force[lane] = s->stiffness_n_m * s->rest_length_m;
 }
 
 /* Reorders the tetrahedron so that corner 0 is the point. Two swaps preserve its orientation. */

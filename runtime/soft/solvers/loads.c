@@ -13,7 +13,7 @@ static void add(float *v, sbf_vec3 change) {
 
 /* Distributes an impulse over the points. Parts on pinned points go to their simulated rigid bodies. */
 static void apply_impulse(
-    const sbri_island_tick *t, const sbri_carriers *at, float *velocities, sbf_vec3 impulse) {
+    const sbri_island_tick *t, const sbri_vertex_weights *at, float *velocities, sbf_vec3 impulse) {
   for (uint32_t k = 0; k < at->count; k++) {
     sbf_vec3 part = sbri_scale(impulse, at->weights[k]);
     uint32_t slot = at->slots[k];

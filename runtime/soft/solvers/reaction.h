@@ -14,9 +14,9 @@
 #include "soft/solvers/tetrahedron_forces.h"
 
 static inline void sbri_react_at(const sbri_island_tick *t, uint32_t slot, sbf_vec3 force, float h) {
-  int32_t carrier = t->island->pins.rigid_bodies[slot - t->island->free_count];
-  if (carrier < 0) return;
-  sbri_reaction *r = &t->reactions[carrier];
+  int32_t attachment = t->island->pins.rigid_bodies[slot - t->island->free_count];
+  if (attachment < 0) return;
+  sbri_reaction *r = &t->reactions[attachment];
   const sbri_point *at = &t->positions[slot];
   sbf_vec3 impulse = sbri_scale(force, h), arm = sbri_sub(sbri_vec3(at->x, at->y, at->z), r->about);
   r->impulse = sbri_add(r->impulse, impulse);
@@ -100,7 +100,7 @@ static inline bool sbri_are_spring_sums_complete(const sbri_island_tick *t) {
 /* Adds a group of lanes at x with accelerations a. */
 static inline void sbri_add_spring_forces(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, sbri_wide3 a, sbri_spring_sums *sums) {
-  const sbf_vec3 about = t->reactions[t->island->pins.carriers[0]].about;
+  const sbf_vec3 about = t->reactions[t->island->pins.attachments[0]].about;
   sbri_wide m = sbri_wide_load(t->island->masses + slot),
             g = sbri_wide_load(t->island->gravity_scales + slot);
   sbri_wide3 f = {m * (a.x - g * sbri_wide_all(t->environment.gravity.x)),
@@ -112,7 +112,7 @@ static inline void sbri_add_spring_forces(
 
 static inline void sbri_apply_spring_reactions(
     const sbri_island_tick *t, const sbri_spring_sums *sums, float h) {
-  sbri_reaction *r = &t->reactions[t->island->pins.carriers[0]];
+  sbri_reaction *r = &t->reactions[t->island->pins.attachments[0]];
   r->impulse = sbri_add_scaled(r->impulse, sbri_lanes_force(sums), -h);
   r->moment = sbri_add_scaled(r->moment, sbri_lanes_moment(sums), -h);
 }

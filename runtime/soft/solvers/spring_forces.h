@@ -75,18 +75,19 @@ SBRI_INLINE sbri_wide3 sbri_spring_forces(
     sbri_wide3 other = sbri_wide_gather(t->positions, cell->others + lane);
     sbri_wide dx = other.x - x.x, dy = other.y - x.y, dz = other.z - x.z;
     sbri_wide square = dx * dx + dy * dy + dz * dz + sbri_wide_all(SBRI_LENGTH_FLOOR);
-    sbri_wide k = sbri_wide_load(cell->stiffness + lane), pull = sbri_wide_load(cell->pull + lane);
+    sbri_wide k = sbri_wide_load(cell->stiffness + lane),
+              rest_force = sbri_wide_load(cell->rest_force + lane);
     sbri_wide strength = sbri_wide_all(1);
     if (flowing) {
       const uint32_t *links = island->cells.links + c * SBRI_BLOCK + lane;
       strength = sbri_wide_gather_floats(t->springs.strengths, links);
       k = k * strength;
-      pull = k * sbri_wide_gather_floats(t->springs.rests, links);
+      rest_force = k * sbri_wide_gather_floats(t->springs.rests, links);
     }
-    sbri_wide s = k - pull / sbri_wide_sqrt(square);
+    sbri_wide s = k - rest_force / sbri_wide_sqrt(square);
     if (track) { /* goal springs have rest length 0 and do not count */
       sbri_wide fraction = s / sbri_wide_max(k, sbri_wide_all(1e-20f));
-      greatest = sbri_wide_select(pull > sbri_wide_all(0), sbri_wide_max(fraction, greatest), greatest);
+      greatest = sbri_wide_select(rest_force > sbri_wide_all(0), sbri_wide_max(fraction, greatest), greatest);
     }
     if (damped && island->cells.slack) {
       size_t index = (size_t)c * SBRI_BLOCK + lane; /* links move with points that split */

@@ -105,9 +105,9 @@ static inline sbf_vec3 sbri_pinned_gradient(const sbri_point *faces, const sbri_
 
 /* Whether the body is pinned to several rigid bodies, at least one of them simulated. */
 static inline bool sbri_volume_is_shared(const sbri_island_tick *t, const sbri_body *body) {
-  if (!t->reactions || body->volume.carrier >= 0) return false;
-  for (uint32_t k = 0; k < t->island->pins.carrier_count; k++)
-    if (t->reactions[t->island->pins.carriers[k]].inverse_mass > 0) return true;
+  if (!t->reactions || body->volume.attachment >= 0) return false;
+  for (uint32_t k = 0; k < t->island->pins.attachment_count; k++)
+    if (t->reactions[t->island->pins.attachments[k]].inverse_mass > 0) return true;
   return false;
 }
 
@@ -119,8 +119,8 @@ static inline float sbri_reaction_inverse_mass(const sbri_reaction *r, sbf_vec3 
 static inline float sbri_volume_pinned_inverse_mass(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces) {
   float sum = 0;
-  for (uint32_t k = 0; k < t->island->pins.carrier_count; k++) {
-    const sbri_reaction *r = &t->reactions[t->island->pins.carriers[k]];
+  for (uint32_t k = 0; k < t->island->pins.attachment_count; k++) {
+    const sbri_reaction *r = &t->reactions[t->island->pins.attachments[k]];
     sbf_vec3 linear = {0, 0, 0}, angular = {0, 0, 0};
     for (uint32_t i = 0; r->inverse_mass > 0 && i < body->volume.pinned_weight_count; i++) {
       const sbri_face_weight *face_weight = &body->volume.pinned_weights[i];
@@ -188,7 +188,7 @@ static inline float sbri_volume_step(
   const bool shared = sbri_volume_is_shared(t, body);
   if (shared) sbri_compute_volume_faces_before(t, body, faces, rule->step_s);
   sbri_reaction *rigid_body =
-      t->reactions && body->volume.carrier >= 0 ? &t->reactions[body->volume.carrier] : NULL;
+      t->reactions && body->volume.attachment >= 0 ? &t->reactions[body->volume.attachment] : NULL;
   sbri_volume_reaction reaction;
   reaction.rigid_body = rigid_body && rigid_body->inverse_mass > 0 ? rigid_body : NULL,
   reaction.h = rule->step_s;

@@ -125,11 +125,12 @@ static void move_row(const fraying *f, uint32_t link, uint32_t from, uint32_t to
   uint32_t block = to / SBRI_BLOCK, lane = to % SBRI_BLOCK, cell = island->cells.begins[block] + at;
   sbri_spring_cell *old = &cells[old_cell];
   cells[cell].others[lane] = old->others[old_lane];
-  cells[cell].stiffness[lane] = old->stiffness[old_lane], cells[cell].pull[lane] = old->pull[old_lane];
+  cells[cell].stiffness[lane] = old->stiffness[old_lane],
+  cells[cell].rest_force[lane] = old->rest_force[old_lane];
   damping[cell * SBRI_BLOCK + lane] = damping[old_cell * SBRI_BLOCK + old_lane];
   slack[cell * SBRI_BLOCK + lane] = slack[old_cell * SBRI_BLOCK + old_lane];
   links[cell * SBRI_BLOCK + lane] = link;
-  old->others[old_lane] = from, old->stiffness[old_lane] = old->pull[old_lane] = 0;
+  old->others[old_lane] = from, old->stiffness[old_lane] = old->rest_force[old_lane] = 0;
   damping[old_cell * SBRI_BLOCK + old_lane] = 0, links[old_cell * SBRI_BLOCK + old_lane] = 0;
   if (cell + 1 > ends[block]) ends[block] = cell + 1;
 }
@@ -184,24 +185,24 @@ static uint32_t split(fraying *f, uint32_t slot) {
 /* ---- A whole island ---- */
 
 /* Ends of torn springs and their neighbours: no other point can have lost a connection. */
-static void mark(const fraying *f, uint8_t *frayed) {
+static void mark(const fraying *f, uint8_t *torn_ends) {
   const sbri_island *island = &f->island;
   enum { TORN = 1, NEAR = 2 };
-  memset(frayed, 0, island->slot_count);
+  memset(torn_ends, 0, island->slot_count);
   for (uint32_t i = 0; i < island->links.block_count * SBRI_BLOCK; i++)
     if (!(f->whole.strengths[i] > 0)) {
       const sbri_link_block *link = &island->links.blocks[i / SBRI_BLOCK];
-      frayed[link->a[i % SBRI_BLOCK]] = frayed[link->b[i % SBRI_BLOCK]] = TORN;
+      torn_ends[link->a[i % SBRI_BLOCK]] = torn_ends[link->b[i % SBRI_BLOCK]] = TORN;
     }
   for (uint32_t slot = 0; slot < island->free_count; slot++)
-    for (sbri_network_end end = {0}; !frayed[slot] && sbri_network_next(&f->whole, slot, &end);)
-      if (frayed[end.other] == TORN) frayed[slot] = NEAR;
+    for (sbri_network_end end = {0}; !torn_ends[slot] && sbri_network_next(&f->whole, slot, &end);)
+      if (torn_ends[end.other] == TORN) torn_ends[slot] = NEAR;
 }
 
 uint32_t sbri_island_split_springs(sbri_character *c, uint32_t index) {
   const sbri_island *made = &c->model->islands[index];
   const float *strengths = sbri_strengths(c) + made->links.first_flow;
-  uint8_t *frayed = sbri_frayed(c) + made->first_slot;
+  uint8_t *torn_ends = sbri_torn_ends(c) + made->first_slot;
   fraying f = {.c = c,
       .island = sbri_island_now(c, made),
       .rest = {made, NULL},
@@ -209,12 +210,12 @@ uint32_t sbri_island_split_springs(sbri_character *c, uint32_t index) {
       .owners = sbri_owners(c) + made->first_slot};
   f.whole = (sbri_network){&f.island, strengths};
   memset(f.owners, 0xff, made->slot_count * sizeof *f.owners);
-  mark(&f, frayed);
+  mark(&f, torn_ends);
   uint32_t unsplit = 0;
   for (uint32_t b = 0; b < made->body_count; b++) {
     const sbri_body *body = &c->model->bodies[made->bodies[b]];
     for (uint32_t slot = body->slots.begin; sbri_body_frays(body) && slot < body->slots.real_end; slot++)
-      if (f.origins[slot] != SBRI_UNUSED && frayed[slot]) unsplit += split(&f, slot);
+      if (f.origins[slot] != SBRI_UNUSED && torn_ends[slot]) unsplit += split(&f, slot);
   }
   return unsplit;
 }

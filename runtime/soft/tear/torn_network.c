@@ -9,7 +9,7 @@
 
 #include "math/vec3.h"
 
-enum { MAX_SPRING_DISTANCE = 3, CARRIERS = 4 };
+enum { MAX_SPRING_DISTANCE = 3, POINTS = 4 };
 
 void sbri_torn_network_begin(sbri_torn_network *t, sbri_character *c, uint32_t index) {
   const sbri_island *made = &c->model->islands[index];
@@ -49,21 +49,21 @@ static bool is_separated(const sbri_torn_network *t, uint32_t a, uint32_t b) {
 /* ---- Sides ---- */
 
 /* The points of a vertex, as slots of the island. */
-typedef struct carriers {
-  uint32_t slots[CARRIERS];
-  float weights[CARRIERS];
-} carriers;
+typedef struct embedding {
+  uint32_t slots[POINTS];
+  float weights[POINTS];
+} embedding;
 
-static carriers read_carriers(const sbri_volume_cell *cells, uint32_t lane, uint32_t first_slot) {
-  carriers is;
-  for (uint32_t k = 0; k < CARRIERS; k++)
+static embedding read_embedding(const sbri_volume_cell *cells, uint32_t lane, uint32_t first_slot) {
+  embedding is;
+  for (uint32_t k = 0; k < POINTS; k++)
     is.slots[k] = cells[k].slots[lane] - first_slot, is.weights[k] = cells[k].weights[lane];
   return is;
 }
 
-static uint32_t heaviest_of(const carriers *is) {
+static uint32_t heaviest_of(const embedding *is) {
   uint32_t heavy = 0;
-  for (uint32_t k = 1; k < CARRIERS; k++)
+  for (uint32_t k = 1; k < POINTS; k++)
     if (is->weights[k] > is->weights[heavy]) heavy = k;
   return heavy;
 }
@@ -83,12 +83,12 @@ static uint32_t connected_copy(const sbri_torn_network *t, uint32_t from, uint32
 }
 
 /* The point on the side with the largest weight. */
-static uint32_t choose_side(const sbri_torn_network *t, const carriers *is) {
+static uint32_t choose_side(const sbri_torn_network *t, const embedding *is) {
   uint32_t best = 0;
   float max = -1;
-  for (uint32_t k = 0; k < CARRIERS; k++) {
+  for (uint32_t k = 0; k < POINTS; k++) {
     float sum = 0;
-    for (uint32_t l = 0; l < CARRIERS; l++)
+    for (uint32_t l = 0; l < POINTS; l++)
       if (is->weights[l] > 0 && connected_copy(t, is->slots[k], is->slots[l]) != SBRI_UNUSED)
         sum += is->weights[l];
     if (is->weights[k] > 0 && sum > max + 1e-4f) best = k, max = sum;
@@ -104,10 +104,10 @@ static sbf_vec3 rest_of(const sbri_torn_network *t, uint32_t slot) {
 }
 
 /* Rest position of the vertex, from its original points. */
-static sbf_vec3 rest_position(const sbri_torn_network *t, const carriers *made) {
+static sbf_vec3 rest_position(const sbri_torn_network *t, const embedding *made) {
   sbf_vec3 sum = {0, 0, 0};
   float all = 0;
-  for (uint32_t k = 0; k < CARRIERS; k++)
+  for (uint32_t k = 0; k < POINTS; k++)
     sum = sbri_add_scaled(sum, rest_of(t, made->slots[k]), made->weights[k]), all += made->weights[k];
   return sbri_scale(sum, 1 / all);
 }
@@ -115,7 +115,7 @@ static sbf_vec3 rest_position(const sbri_torn_network *t, const carriers *made) 
 /* The smallest weights with sum 1 by which `count` points approximate the position: with M = B' B + e and B
  * the offsets of the points, in proportion to M^-1 1. */
 static void find_weights(const sbf_vec3 *offsets, uint32_t count, double *weights) {
-  double m[CARRIERS][CARRIERS], size = 0, sum = 0;
+  double m[POINTS][POINTS], size = 0, sum = 0;
   for (uint32_t i = 0; i < count; i++) size += (double)sbri_dot(offsets[i], offsets[i]);
   for (uint32_t i = 0; i < count; i++) {
     for (uint32_t j = 0; j < count; j++) m[i][j] = (double)sbri_dot(offsets[i], offsets[j]);
@@ -134,30 +134,30 @@ static void find_weights(const sbf_vec3 *offsets, uint32_t count, double *weight
   for (uint32_t i = 0; i < count; i++) weights[i] /= sum;
 }
 
-static bool has(const carriers *is, uint32_t count, uint32_t slot) {
+static bool has(const embedding *is, uint32_t count, uint32_t slot) {
   for (uint32_t k = 0; k < count; k++)
     if (is->slots[k] == slot) return true;
   return false;
 }
 
-/* Moves the vertex to one side: its remaining carriers, then other points of the side. */
-static void move_to_side(const sbri_torn_network *t, carriers *is, uint32_t side, const carriers *made) {
-  carriers next = {{0}, {0}};
-  double weights[CARRIERS];
-  sbf_vec3 offsets[CARRIERS], position = rest_position(t, made);
+/* Moves the vertex to one side: its remaining points, then other points of the side. */
+static void move_to_side(const sbri_torn_network *t, embedding *is, uint32_t side, const embedding *made) {
+  embedding next = {{0}, {0}};
+  double weights[POINTS];
+  sbf_vec3 offsets[POINTS], position = rest_position(t, made);
   uint32_t count = 0, from = is->slots[side];
   float all = 0;
-  for (uint32_t k = 0; k < CARRIERS; k++) {
+  for (uint32_t k = 0; k < POINTS; k++) {
     uint32_t slot = is->weights[k] != 0 ? connected_copy(t, from, is->slots[k]) : SBRI_UNUSED;
     all += is->weights[k];
     if (slot != SBRI_UNUSED && !has(&next, count, slot)) next.slots[count++] = slot;
   }
-  for (sbri_network_end e = {0}; count < CARRIERS && sbri_network_next(&t->whole, from, &e);)
+  for (sbri_network_end e = {0}; count < POINTS && sbri_network_next(&t->whole, from, &e);)
     if (!has(&next, count, e.other)) next.slots[count++] = e.other;
   for (uint32_t k = 0; k < count; k++) offsets[k] = sbri_sub(rest_of(t, next.slots[k]), position);
   find_weights(offsets, count, weights);
   for (uint32_t k = 0; k < count; k++) next.weights[k] = all * (float)weights[k];
-  for (uint32_t k = count; k < CARRIERS; k++) next.slots[k] = from;
+  for (uint32_t k = count; k < POINTS; k++) next.slots[k] = from;
   *is = next;
 }
 
@@ -167,20 +167,20 @@ bool sbri_network_vertex_follow(const sbri_torn_network *t, const sbri_skin *ski
   const sbri_binding *bound = &skin->bindings[binding];
   uint32_t lane = bound->vertex % SBRI_BLOCK, first = t->island.first_slot;
   sbri_volume_cell *cells = sbri_skin_cells(t->c) + skin->first_cell + bound->cell;
-  const uint8_t *frayed = sbri_frayed(t->c) + first;
-  carriers is = read_carriers(cells, lane, first),
-           made = read_carriers(skin->cells + bound->cell, lane, first);
+  const uint8_t *torn_ends = sbri_torn_ends(t->c) + first;
+  embedding is = read_embedding(cells, lane, first),
+            made = read_embedding(skin->cells + bound->cell, lane, first);
   bool near = false, parted = false, lost = false;
-  for (uint32_t k = 0; k < CARRIERS; k++) near = near || frayed[is.slots[k]];
+  for (uint32_t k = 0; k < POINTS; k++) near = near || torn_ends[is.slots[k]];
   if (!near) return false;
-  for (uint32_t k = 0; k < CARRIERS; k++)
+  for (uint32_t k = 0; k < POINTS; k++)
     for (uint32_t l = 0; l < k; l++)
       parted =
           parted || (is.weights[k] != 0 && is.weights[l] != 0 && is_separated(t, is.slots[k], is.slots[l]));
   if (!parted) return true;
   uint32_t side = choose_side(t, &is);
-  carriers copies = is;
-  for (uint32_t k = 0; k < CARRIERS; k++) {
+  embedding copies = is;
+  for (uint32_t k = 0; k < POINTS; k++) {
     if (is.weights[k] != 0) copies.slots[k] = connected_copy(t, is.slots[side], is.slots[k]);
     lost = lost || copies.slots[k] == SBRI_UNUSED;
   }
@@ -188,7 +188,7 @@ bool sbri_network_vertex_follow(const sbri_torn_network *t, const sbri_skin *ski
     move_to_side(t, &is, side, &made);
   else
     is = copies;
-  for (uint32_t k = 0; k < CARRIERS; k++)
+  for (uint32_t k = 0; k < POINTS; k++)
     cells[k].slots[lane] = first + is.slots[k], cells[k].weights[lane] = is.weights[k];
   return true;
 }
@@ -198,7 +198,7 @@ bool sbri_network_vertices_part(
   uint32_t slots[2];
   for (int i = 0; i < 2; i++) {
     const sbri_binding *bound = &skin->bindings[i ? binding_b : binding_a];
-    carriers is = read_carriers(sbri_skin_cells(t->c) + skin->first_cell + bound->cell,
+    embedding is = read_embedding(sbri_skin_cells(t->c) + skin->first_cell + bound->cell,
         bound->vertex % SBRI_BLOCK, t->island.first_slot);
     slots[i] = is.slots[heaviest_of(&is)];
   }

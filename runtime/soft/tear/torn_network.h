@@ -14,10 +14,10 @@ typedef struct sbri_torn_network {
   uint32_t *seen, *queue; /* (slots) */
 } sbri_torn_network;
 void sbri_torn_network_begin(sbri_torn_network *network, sbri_character *c, uint32_t island);
-/* Moves a vertex to one side of a tear; returns whether its carriers have changed, or are near a torn spring.
+/* Moves a vertex to one side of a tear; returns whether its embedding has changed or is near a torn spring.
  */
 bool sbri_network_vertex_follow(const sbri_torn_network *network, const sbri_skin *skin, uint32_t binding);
-/* Whether a tear has separated the carriers of two vertices. */
+/* Whether a tear has separated the points that embed two vertices. */
 bool sbri_network_vertices_part(
     const sbri_torn_network *network, const sbri_skin *skin, uint32_t binding_a, uint32_t binding_b);
 

@@ -101,7 +101,7 @@ static void move_weights(
   cells[3].weights[lane] = sum * (float)weights.z;
 }
 
-/* Returns whether its carriers have changed. */
+/* Returns whether its embedding has changed. */
 static bool follow(const tearing *t, const sbri_skin *skin, uint32_t i) {
   const sbri_binding *binding = &skin->bindings[i];
   uint32_t *bound = &sbri_bound_to(t->c)[skin->first_binding + i], lane = binding->vertex % SBRI_BLOCK,

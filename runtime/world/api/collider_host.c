@@ -186,7 +186,7 @@ static const float MIN_GRAVITY_FRACTION = 0.2f, MIN_CHANGE_M_S = 0.01f;
 static void find_external_impulse(sbri_host_body *b, const sbr_collider_motion *m, sbf_vec3 velocity) {
   b->blocked_normal = sbri_vec3(0, 0, 0);
   if (!b->is_moving || !(m->since_s > 0)) {
-    b->sharer_count = b->next_sharer_count = 0;
+    b->contributor_count = b->next_contributor_count = 0;
     return;
   }
   sbf_vec3 expected =

@@ -12,7 +12,7 @@ typedef struct soft_call {
   const char *name;
   sbri_character *c;
   const sbri_body *body;
-  sbri_carriers at; /* of its vertex */
+  sbri_vertex_weights at; /* of its vertex */
 } soft_call;
 
 static bool find_body(const sbr_world *world, sbr_character_id character, uint32_t soft_body, soft_call *call,
@@ -45,7 +45,7 @@ static bool find_vertex(
   if (vertex >= call->body->surface.skin.vertex_count)
     *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: vertex %u does not exist: the surface has %u",
         call->name, vertex, call->body->surface.skin.vertex_count);
-  else if (sbri_vertex_carriers(call->c, call->body, vertex, &call->at))
+  else if (sbri_vertex_weights_find(call->c, call->body, vertex, &call->at))
     return true;
   else
     *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL,
@@ -111,10 +111,10 @@ static void apply_impulse(const soft_call *call, sbf_vec3 impulse) {
       add_velocity(velocity_of(c, call->body, slot), sbri_scale(part, now.inverse_masses[slot]));
       continue;
     }
-    int32_t carrier = now.pins.rigid_bodies[slot - now.free_count];
+    int32_t rigid_body = now.pins.rigid_bodies[slot - now.free_count];
     const sbri_point *x = &sbri_positions(c)[now.first_slot + slot];
-    if (carrier >= 0 && sbri_rigid_is_simulated(c, (uint32_t)carrier))
-      sbri_rigid_apply_impulse(c, (uint32_t)carrier, sbri_vec3(x->x, x->y, x->z), part);
+    if (rigid_body >= 0 && sbri_rigid_is_simulated(c, (uint32_t)rigid_body))
+      sbri_rigid_apply_impulse(c, (uint32_t)rigid_body, sbri_vec3(x->x, x->y, x->z), part);
   }
 }
 

@@ -160,7 +160,7 @@ static void set_followers(sbri_character *c, const sbri_character *was, float ti
     sbri_position_follower *follower = &sbri_jiggles(c)[j];
     sbf_vec3 offset, speed;
     mean_offset(was, jiggle->body, &offset, &speed);
-    sbr_transform before = sbri_delta_of(c, sbri_previous_pose(c), jiggle->carrier);
+    sbr_transform before = sbri_delta_of(c, sbri_previous_pose(c), jiggle->parent);
     sbf_vec3 middle = sbri_add(before.position, sbri_rotate(before.rotation, jiggle->middle));
     sbf_vec3 went = sbri_scale(sbri_sub(follower->followed, middle), 1 / tick_s);
     follower->value = sbri_add(follower->followed, offset);

@@ -9,21 +9,21 @@
 /* Greatest displacement, in sizes of all bodies: a bone that jumps does not throw them away. */
 static const float MAX_SIZES = 0.25f;
 
-static sbf_vec3 middle_of(const sbri_jiggle *jiggle, const sbr_transform *carrier) {
-  return sbri_add(carrier->position, sbri_rotate(carrier->rotation, jiggle->middle));
+static sbf_vec3 middle_of(const sbri_jiggle *jiggle, const sbr_transform *parent) {
+  return sbri_add(parent->position, sbri_rotate(parent->rotation, jiggle->middle));
 }
 
-static void put(sbri_character *c, uint32_t index, const sbr_transform *carrier, sbf_vec3 shift) {
+static void put(sbri_character *c, uint32_t index, const sbr_transform *parent, sbf_vec3 shift) {
   sbr_transform *frame = &sbri_pose(c)[sbri_first_jiggle_frame(c->model) + index];
-  *frame = (sbr_transform){sbri_scale(sbri_add(carrier->position, shift), c->scale), carrier->rotation};
+  *frame = (sbr_transform){sbri_scale(sbri_add(parent->position, shift), c->scale), parent->rotation};
 }
 
 void sbri_jiggles_reset(sbri_character *c) {
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
     const sbri_jiggle *jiggle = &c->model->jiggles[j];
-    sbr_transform carrier = sbri_delta_of(c, sbri_pose(c), jiggle->carrier);
-    sbri_position_follower_reset(&sbri_jiggles(c)[j], middle_of(jiggle, &carrier));
-    put(c, j, &carrier, sbri_vec3(0, 0, 0));
+    sbr_transform parent = sbri_delta_of(c, sbri_pose(c), jiggle->parent);
+    sbri_position_follower_reset(&sbri_jiggles(c)[j], middle_of(jiggle, &parent));
+    put(c, j, &parent, sbri_vec3(0, 0, 0));
   }
 }
 
@@ -32,8 +32,8 @@ void sbri_jiggles_tick(sbri_character *c, float tick_s) {
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
     const sbri_jiggle *jiggle = &c->model->jiggles[j];
     sbri_position_follower *follower = &sbri_jiggles(c)[j];
-    sbr_transform carrier = sbri_delta_of(c, sbri_pose(c), jiggle->carrier);
-    sbf_vec3 middle = middle_of(jiggle, &carrier);
+    sbr_transform parent = sbri_delta_of(c, sbri_pose(c), jiggle->parent);
+    sbf_vec3 middle = middle_of(jiggle, &parent);
     sbri_follower_step step =
         sbri_follower_step_of(jiggle->frequency_hz, jiggle->damping_ratio, jiggle->response, tick_s);
     sbri_position_follower_tick(follower, middle, &step);
@@ -42,7 +42,7 @@ void sbri_jiggles_tick(sbri_character *c, float tick_s) {
       sbri_position_follower_reset(follower, middle);
       shift = sbri_vec3(0, 0, 0);
     }
-    put(c, j, &carrier, shift);
+    put(c, j, &parent, shift);
   }
 }
 

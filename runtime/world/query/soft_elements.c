@@ -26,25 +26,25 @@ static sbr_tetrahedron_state state_of(
   sbr_tetrahedron_state s = {.volume_ratio = 0};
   double shear = block->shear[lane], bulk = block->bulk[lane], inverse = block->inverse_volume[lane];
   if (!(shear > 0) || !(inverse > 0)) return (sbr_tetrahedron_state){.torn = true};
-  sbfi_d3 d[3], n[3], pull[3];
+  sbfi_d3 d[3], n[3], forces[3];
   for (int k = 0; k < 3; k++)
     d[k] = sbfi_d3_sub(position_of(&positions[block->corners[k + 1][lane]]),
         position_of(&positions[block->corners[0][lane]]));
   for (int k = 0; k < 3; k++) n[k] = sbfi_d3_cross(d[(k + 1) % 3], d[(k + 2) % 3]);
   double ratio = sbfi_d3_dot(d[0], n[0]) * inverse, p = bulk * (ratio - 1) - shear, squares = 0;
   for (int i = 0; i < 3; i++) {
-    pull[i] = sbfi_d3_scale(n[i], p);
+    forces[i] = sbfi_d3_scale(n[i], p);
     for (int j = 0; j < 3; j++) {
       double k = block->stiffness[stiffness_at[i][j]][lane];
-      pull[i] = sbfi_d3_add(pull[i], sbfi_d3_scale(d[j], k));
+      forces[i] = sbfi_d3_add(forces[i], sbfi_d3_scale(d[j], k));
       squares += k * sbfi_d3_dot(d[i], d[j]);
     }
   }
   double volume = 1 / (6 * inverse), mu = 6 * shear, lambda = 6 * bulk, off = ratio - 1 - mu / lambda;
   double now = ratio * volume, sum[6] = {0};
   for (int k = 0; k < 3; k++) {
-    sum[0] += pull[k].x * d[k].x, sum[1] += pull[k].y * d[k].y, sum[2] += pull[k].z * d[k].z;
-    sum[3] += pull[k].x * d[k].y, sum[4] += pull[k].y * d[k].z, sum[5] += pull[k].z * d[k].x;
+    sum[0] += forces[k].x * d[k].x, sum[1] += forces[k].y * d[k].y, sum[2] += forces[k].z * d[k].z;
+    sum[3] += forces[k].x * d[k].y, sum[4] += forces[k].y * d[k].z, sum[5] += forces[k].z * d[k].x;
   }
   for (int i = 0; i < 6; i++) s.stress[i] = now != 0 ? (float)(sum[i] / now) : 0;
   s.volume_ratio = (float)ratio, s.rest_volume = (float)volume;
@@ -86,7 +86,7 @@ static sbr_spring_state spring_state_of(
   sbr_spring_state is = {.ends = {ends[0], ends[1]}};
   is.torn = s.stiffness_n_m < island->springs.at[number].stiffness_n_m;
   if (is.torn) return is;
-  is.tension = (float)(scale * scale * scale * (double)sbfi_spring_pull(&s, (float)length) * length);
+  is.tension = (float)(scale * scale * scale * (double)sbfi_spring_force_factor(&s, (float)length) * length);
   is.energy = (float)(scale * scale * scale * scale * sbfi_spring_energy(&s, length));
   return is;
 }

@@ -9,7 +9,7 @@ from mathutils import Matrix, Vector
 from ..findings import Findings
 from ..space import Space
 from ..to_document.armatures import hung_on
-from ..to_document.rigid_parts import ABOUT, wish_of
+from ..to_document.rigid_parts import ABOUT, joint_limits_of
 from . import joint_shapes
 from .joint_shapes import CONE, SLIDE, SWING_Y, SWING_Z, TWIST
 from .view_drawing import ViewDrawing, flat_shader
@@ -59,14 +59,14 @@ def frame_at_rest(source, pose):
 
 def joint_shape(source, pose, unit_m):
     """(Shape, its 4x4 in the world, whether the pose keeps the limits, where the bone points in the shape), or None."""
-    wish = wish_of(source, pose.bone, Findings())
-    if wish is None or wish.kind == "fixed":
+    limits = joint_limits_of(source, pose.bone, Findings())
+    if limits is None or limits.kind == "fixed":
         return None
-    turn = ABOUT[wish.axis]
+    turn = ABOUT[limits.axis]
     along = turn.inverted() @ Vector((0, 1, 0))
-    bounds = {name: (low, high) for name, low, high in wish.bounds if low <= high}
+    bounds = {name: (low, high) for name, low, high in limits.bounds if low <= high}
     length_m = pose.bone.length * source.matrix_world.median_scale * unit_m
-    shape = joint_shapes.shape_of(wish.kind, bounds, tuple(along), 1 / max(length_m, 1e-9))
+    shape = joint_shapes.shape_of(limits.kind, bounds, tuple(along), 1 / max(length_m, 1e-9))
     if not shape.lines:
         return None
     rest = frame_at_rest(source, pose)

@@ -17,7 +17,7 @@ UNBOUNDED_M = 1e4  # a way that is bounded at one end alone ends here at the oth
 
 
 @dataclass
-class Wish:
+class JointLimits:
     """A joint somebody asked for: kind, axis, bounds as (coordinate, least, most), and where it was said."""
 
     kind: str
@@ -25,7 +25,7 @@ class Wish:
     bounds: list = field(default_factory=list)
 
 
-def wish_of(armature, bone, findings, scale_m=1.0):
+def joint_limits_of(armature, bone, findings, scale_m=1.0):
     """The joint of a bone to the one above it, or None. `scale_m` is the length of the armature's unit in metres."""
     joint = bone.soft_body_format.joint
     if joint.kind != "NONE":
@@ -35,7 +35,7 @@ def wish_of(armature, bone, findings, scale_m=1.0):
     ways = of_locations(armature, pose, findings, scale_m)
     if any(high - low > 1e-9 for low, high in ways.values()):
         return as_slide(turns, ways)
-    return as_wish(turns) if turns or ways else None
+    return limits_from_bounds(turns) if turns or ways else None
 
 
 def of_panel(joint):
@@ -47,7 +47,7 @@ def of_panel(joint):
     for name in names:
         if getattr(joint, f"use_{name}"):
             bounds.append(("linear_x" if name == "slide" else name, getattr(joint, f"{name}_min"), getattr(joint, f"{name}_max")))
-    return Wish(joint.kind, "Y" if joint.kind in ("spherical", "fixed") else joint.axis, bounds)
+    return JointLimits(joint.kind, "Y" if joint.kind in ("spherical", "fixed") else joint.axis, bounds)
 
 
 def of_constraints(armature, pose, findings):
@@ -114,22 +114,22 @@ def as_slide(turns, ways):
     if len(sliding) == 1 and turning in ([], sliding):
         axis = sliding[0]
         bounds = [("linear_x", *ways[axis])] + [("twist", *turns[axis]) for _ in turning if axis in turns]
-        return Wish("cylindrical" if turning else "prismatic", axis, bounds)
-    return Wish("six_dof", "Y", [(ALONG_AXIS[axis], *ways[axis]) for axis in "YZX"
+        return JointLimits("cylindrical" if turning else "prismatic", axis, bounds)
+    return JointLimits("six_dof", "Y", [(ALONG_AXIS[axis], *ways[axis]) for axis in "YZX"
                                  if ways[axis] != (-UNBOUNDED_M, UNBOUNDED_M)] +
                 [(OF_AXIS[axis], *turns[axis]) for axis in "YZX" if axis in turns])
 
 
-def as_wish(bounds):
+def limits_from_bounds(bounds):
     """A hinge where two axes are locked, else a ball."""
     locked = locked_of(bounds)
     free = [axis for axis in "XYZ" if axis not in locked]
     if len(free) == 0:
-        return Wish("fixed")
+        return JointLimits("fixed")
     if len(free) == 1:
         turn = [("twist", *bounds[free[0]])] if free[0] in bounds else []
-        return Wish("revolute", free[0], turn)
-    return Wish("spherical", "Y", [(OF_AXIS[axis], *bounds[axis]) for axis in "YZX" if axis in bounds])
+        return JointLimits("revolute", free[0], turn)
+    return JointLimits("spherical", "Y", [(OF_AXIS[axis], *bounds[axis]) for axis in "YZX" if axis in bounds])
 
 
 class RigidParts:
@@ -152,15 +152,15 @@ class RigidParts:
 
     def write(self, armature):
         scale_m = self.writer.space.unit_m * armature.matrix_world.median_scale
-        wishes = {bone.name: wish_of(armature, bone, self.writer.findings, scale_m) for bone in armature.data.bones}
-        wanted = {name for name, wish in wishes.items() if wish is not None}
+        limits_by_bone = {bone.name: joint_limits_of(armature, bone, self.writer.findings, scale_m) for bone in armature.data.bones}
+        wanted = {name for name, limits in limits_by_bone.items() if limits is not None}
         wanted |= {bone.name for bone in armature.data.bones
                    if bone.soft_body_format.joint.simulated or bone.soft_body_format.joint.use_mass}
         for bone in armature.data.bones:
             if bone.name in wanted:
                 self.body(armature, bone)
-            if wishes[bone.name] is not None and hung_on(bone) is not None:
-                self.joint(armature, bone, wishes[bone.name], self.above(armature, bone, wanted))
+            if limits_by_bone[bone.name] is not None and hung_on(bone) is not None:
+                self.joint(armature, bone, limits_by_bone[bone.name], self.above(armature, bone, wanted))
 
     def above(self, armature, bone, wanted):
         """The rigid body a bone hangs on: of the nearest bone above that has one, else of its parent."""
@@ -170,20 +170,20 @@ class RigidParts:
             parent = hung_on(parent)
         return self.body(armature, parent if parent is not None else hung_on(bone))
 
-    def joint(self, armature, bone, wish, above):
+    def joint(self, armature, bone, limits, above):
         writer = self.writer
         below = self.body(armature, bone)
         frame = armature.matrix_world @ bone.matrix_local
-        turn = frame.to_3x3().normalized() @ ABOUT[wish.axis]
+        turn = frame.to_3x3().normalized() @ ABOUT[limits.axis]
         rotation = writer.space.rotation(turn.to_quaternion())
         place = writer.space.point(frame.translation)
         made = writer.asset.add("joints", id=writer.identifiers.of("joint", (armature.name, bone.name), bone.name),
-                                name=bone.name, kind=wish.kind, body_a=above.id, body_b=below.id)
+                                name=bone.name, kind=limits.kind, body_a=above.id, body_b=below.id)
         for record, holder in ((made.frame_a, above), (made.frame_b, below)):
             record.position = tuple(a - b for a, b in zip(place, holder.center))
             record.rotation = rotation
         settings = bone.soft_body_format.joint
-        for target, low, high in wish.bounds:
+        for target, low, high in limits.bounds:
             if low > high:
                 writer.findings.error(f"the least {target} ({low:.3g}) is above the most ({high:.3g}): exchange them",
                                       object_name=armature.name, bone_name=bone.name, code="LIMIT_ORDER")
@@ -191,6 +191,6 @@ class RigidParts:
             made.limits.append(Record("limit", target=target, min=low, max=high, stiffness=settings.limit_stiffness,
                                       damping=settings.limit_damping))
         if settings.use_drive:
-            for target in {"spherical": ("twist", "swing_y", "swing_z"), "revolute": ("twist", )}.get(wish.kind, ()):
+            for target in {"spherical": ("twist", "swing_y", "swing_z"), "revolute": ("twist", )}.get(limits.kind, ()):
                 made.drives.append(Record("drive", target=target, stiffness=settings.drive_stiffness,
                                           damping=settings.drive_damping, maximum=settings.drive_maximum))

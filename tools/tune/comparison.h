@@ -1,6 +1,6 @@
 /* Error of a setting of a character: distance of its skin in a walk, a hop and a shake. */
-#ifndef TUNE_YARDSTICK_H
-#define TUNE_YARDSTICK_H
+#ifndef TUNE_COMPARISON_H
+#define TUNE_COMPARISON_H
 
 #include "chart/bundle_case.h"
 #include "chart/reference.h"
@@ -10,7 +10,7 @@
 extern const chart_drive tune_harsher_drive;
 
 /* The motions of one drive, and the reference skin in each. */
-typedef struct tune_yardstick {
+typedef struct tune_comparison {
   chart_bundle bundle;
   chart_case cases[CHART_BUNDLE_CASES];
   chart_truth truths[CHART_BUNDLE_CASES];
@@ -20,7 +20,7 @@ typedef struct tune_yardstick {
   sbf_vec3 *rest;
   double size_m;      /* of the character: largest extent of its bounds */
   tune_distances own; /* maximum error of the reference by its steps */
-} tune_yardstick;
+} tune_comparison;
 
 typedef struct tune_error {
   tune_distances off;            /* each maximum over all motions */
@@ -48,10 +48,10 @@ double tune_size_of(const sbf_asset *asset);
 
 /* Excludes motions in which the reference itself breaks, or has an error above a two-hundredth of the
  * character's size; SBF_FAILED, SBF_CODE_BAD_CALL, if all are excluded. Must not be moved while in use;
- * free it with tune_yardstick_free, also on failure. `reference` must outlive it. */
-sbf_status tune_yardstick_make(
-    tune_yardstick *yard, const sbf_asset *reference, const tune_measure *measure, sbf_diagnostic *error);
-void tune_yardstick_free(tune_yardstick *yard);
+ * free it with tune_comparison_free, also on failure. `reference` must outlive it. */
+sbf_status tune_comparison_create(tune_comparison *comparison, const sbf_asset *reference,
+    const tune_measure *measure, sbf_diagnostic *error);
+void tune_comparison_free(tune_comparison *comparison);
 
 /* When to stop a measurement. */
 typedef struct tune_bar {
@@ -63,7 +63,7 @@ typedef struct tune_bar {
 
 /* Measures a character with the reference's skin. If the runtime does not support it, it is not sound;
  * fails only if memory runs out. `bar` NULL: runs all motions. */
-sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asset,
+sbf_status tune_comparison_measure(const tune_comparison *comparison, const sbf_asset *asset,
     const chart_setting *setting, const tune_bar *bar, tune_error *is, sbf_diagnostic *error);
 
 #endif

@@ -3,7 +3,7 @@
  * The vertices of all parts except tails, in the gait's rest pose (arms down), are sorted into cubes. Each
  * cube with vertices gets a sphere inside its bounds. There are none below the height of a step, because feet
  * step onto things that low; lower vertices count at that height. */
-#include "animation/skeleton/rig_girth.h"
+#include "animation/skeleton/wall_volume.h"
 
 #include "animation/skeleton/bone_points.h"
 
@@ -58,13 +58,13 @@ typedef struct cubes {
   bounds body;
   float edge;   /* m */
   float lowest; /* m; lower bound of spheres */
-  int32_t cells[SBRI_BUMPERS][3];
-  uint32_t count; /* SBRI_BUMPERS + 1: too many */
+  int32_t cells[SBRI_WALL_SPHERES][3];
+  uint32_t count; /* SBRI_WALL_SPHERES + 1: too many */
 } cubes;
 
 static void fill(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 rest) {
   cubes *c = user;
-  if (c->count > SBRI_BUMPERS || !is_stiff(rig, bone)) return;
+  if (c->count > SBRI_WALL_SPHERES || !is_stiff(rig, bone)) return;
   sbf_vec3 p = posed(rig, bone, rest);
   if (p.z < c->body.low.z) return;
   if (p.y < c->lowest) p.y = c->lowest; /* feet included: above them they would be in a wall */
@@ -72,7 +72,7 @@ static void fill(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 rest) {
       (int32_t)((p.z - c->body.low.z) / c->edge)};
   for (uint32_t i = 0; i < c->count; i++)
     if (c->cells[i][0] == cell[0] && c->cells[i][1] == cell[1] && c->cells[i][2] == cell[2]) return;
-  if (c->count < SBRI_BUMPERS)
+  if (c->count < SBRI_WALL_SPHERES)
     for (int k = 0; k < 3; k++) c->cells[c->count][k] = cell[k];
   c->count++;
 }
@@ -84,7 +84,7 @@ static float middle(float low, float high, float edge, float radius, int32_t cel
   return sbri_clamp(at, low + radius, high - radius);
 }
 
-static void set_balls(const cubes *c, sbri_girth *girth) {
+static void set_balls(const cubes *c, sbri_wall_volume *wall_volume) {
   sbf_vec3 low = c->body.low, high = c->body.high;
   float radius = 0.5f * c->edge;
   if (low.y < c->lowest) low.y = c->lowest;
@@ -94,7 +94,7 @@ static void set_balls(const cubes *c, sbri_girth *girth) {
         middle(low.x, high.x, c->edge, radius, cell[0]), 0, middle(low.z, high.z, c->edge, radius, cell[2])};
     float y = c->body.low.y + c->edge * ((float)cell[1] + 0.5f);
     position.y = sbri_clamp(y, low.y + radius, fmaxf(low.y + radius, high.y - radius));
-    girth->bumpers[girth->bumper_count++] = (sbri_bumper){position, radius};
+    wall_volume->wall_spheres[wall_volume->wall_sphere_count++] = (sbri_wall_sphere){position, radius};
   }
 }
 
@@ -102,34 +102,36 @@ static float largest(sbf_vec3 size) {
   return fmaxf(size.x, fmaxf(size.y, size.z));
 }
 
-void sbri_rig_find_girth(sbri_rig *rig) {
-  sbri_girth *girth = &rig->girth;
+void sbri_rig_find_wall_volume(sbri_rig *rig) {
+  sbri_wall_volume *wall_volume = &rig->wall_volume;
   sbf_gait_kind kind = rig->gait ? rig->gait->kind : SBF_GAIT_KIND_NONE;
   bool afloat = kind == SBF_GAIT_KIND_SWIM || kind == SBF_GAIT_KIND_FLY;
-  *girth = (sbri_girth){.layer = 0};
+  *wall_volume = (sbri_wall_volume){.layer = 0};
   for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++)
-    girth->layer |= rig->asset->soft_bodies.at[b].collision.layer,
-        girth->mask |= rig->asset->soft_bodies.at[b].collision.mask;
+    wall_volume->layer |= rig->asset->soft_bodies.at[b].collision.layer,
+        wall_volume->mask |= rig->asset->soft_bodies.at[b].collision.mask;
   for (uint32_t b = 0; b < rig->asset->rigid_bodies.count; b++)
-    girth->layer |= rig->asset->rigid_bodies.at[b].layer, girth->mask |= rig->asset->rigid_bodies.at[b].mask;
-  if (!girth->layer && !girth->mask) girth->layer = 1, girth->mask = UINT32_MAX;
+    wall_volume->layer |= rig->asset->rigid_bodies.at[b].layer,
+        wall_volume->mask |= rig->asset->rigid_bodies.at[b].mask;
+  if (!wall_volume->layer && !wall_volume->mask) wall_volume->layer = 1, wall_volume->mask = UINT32_MAX;
   cubes all = {.lowest = -INFINITY};
   sbri_rig_visit_points(rig, extend, &all.body);
   if (kind == SBF_GAIT_KIND_NONE || !all.body.any) return;
   sbf_vec3 size = sbri_sub(all.body.high, all.body.low);
-  girth->mass = DENSITY * FILLED * size.x * size.y * size.z;
-  girth->step_up = STEP_UP_LEGLESS * size.y;
-  if (rig->leg_count) girth->step_up = STEP_UP * fminf(rig->stand.reach, size.y);
-  if (!afloat) all.lowest = girth->step_up;
+  wall_volume->mass = DENSITY * FILLED * size.x * size.y * size.z;
+  wall_volume->step_up = STEP_UP_LEGLESS * size.y;
+  if (rig->leg_count) wall_volume->step_up = STEP_UP * fminf(rig->stand.reach, size.y);
+  if (!afloat) all.lowest = wall_volume->step_up;
   if (kind == SBF_GAIT_KIND_SLITHER) all.body.low.z = all.body.high.z - NOSE * size.z;
   size.z = all.body.high.z - all.body.low.z;
   for (all.edge = largest(size) / FINEST; all.edge > 0; all.edge *= COARSER) {
     all.count = 0;
     sbri_rig_visit_points(rig, fill, &all);
-    if (all.count <= SBRI_BUMPERS) break;
+    if (all.count <= SBRI_WALL_SPHERES) break;
   }
-  if (all.edge > 0) set_balls(&all, girth);
-  for (uint32_t i = 0; i < girth->bumper_count; i++)
-    girth->radius = fmaxf(girth->radius, sbri_length(girth->bumpers[i].position) + girth->bumpers[i].radius);
-  girth->radius = fmaxf(girth->radius, rig->stand.spread + rig->stand.reach);
+  if (all.edge > 0) set_balls(&all, wall_volume);
+  for (uint32_t i = 0; i < wall_volume->wall_sphere_count; i++)
+    wall_volume->radius = fmaxf(wall_volume->radius,
+        sbri_length(wall_volume->wall_spheres[i].position) + wall_volume->wall_spheres[i].radius);
+  wall_volume->radius = fmaxf(wall_volume->radius, rig->stand.spread + rig->stand.reach);
 }

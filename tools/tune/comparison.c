@@ -1,4 +1,4 @@
-#include "tune/yardstick.h"
+#include "tune/comparison.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -39,60 +39,61 @@ static void show(void *user, uint32_t substeps, uint32_t tick) {
 }
 
 /* The reference's own error only counts if something is measured with it. */
-static void add_own_error(tune_yardstick *yard, int number, tune_by by) {
-  const chart_reference *stated = &yard->stated[number];
+static void add_own_error(tune_comparison *comparison, int number, tune_by by) {
+  const chart_reference *stated = &comparison->stated[number];
   double rms = stated->errors[CHART_PATH], max = stated->errors[CHART_FARTHEST];
   /* At most one in k^2 exceeds k times the root mean square (Chebyshev). */
   const tune_distances own = {rms, fmin(10 * rms, max), max};
   double is = tune_distance_by(&own, by);
-  if (!(is < TELLS * yard->size_m)) {
-    snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number],
+  if (!(is < TELLS * comparison->size_m)) {
+    snprintf(comparison->unmeasured[number], sizeof comparison->unmeasured[number],
         "the reference itself has an error of %.2g m%s, measured with half as many substeps", is,
         by == TUNE_BY_MAX ? " at the worst place" : "");
     return;
   }
-  yard->own = tune_distances_larger(&yard->own, &own);
+  comparison->own = tune_distances_larger(&comparison->own, &own);
 }
 
 /* SBF_OK with `unmeasured` filled, if the reference is unusable. */
-static sbf_status find_truth(tune_yardstick *yard, int number, const sbf_asset *reference,
+static sbf_status find_truth(tune_comparison *comparison, int number, const sbf_asset *reference,
     const tune_measure *measure, sbf_diagnostic *error) {
-  measurement f = {measure, yard->cases[number].name, yard->cases[number].ticks};
-  chart_scene scene = chart_scene_of(&yard->cases[number], reference);
+  measurement f = {measure, comparison->cases[number].name, comparison->cases[number].ticks};
+  chart_scene scene = chart_scene_of(&comparison->cases[number], reference);
   if (measure->progress) scene.looked = show, scene.looked_user = &f;
-  if (!yard->rest) yard->rest = chart_motion_begins(&scene);
-  if (!yard->rest) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
-  chart_truth *truth = &yard->truths[number];
-  chart_reference *stated = &yard->stated[number];
-  sbf_status status =
-      measure->once ? chart_truth_take_mesh(truth, &scene, stated, error)
-                    : chart_truth_find_mesh(truth, &yard->cases[number], &scene, yard->rest, stated, error);
-  if (status == SBF_OK) add_own_error(yard, number, measure->by);
+  if (!comparison->rest) comparison->rest = chart_motion_begins(&scene);
+  if (!comparison->rest) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
+  chart_truth *truth = &comparison->truths[number];
+  chart_reference *stated = &comparison->stated[number];
+  sbf_status status = measure->once ? chart_truth_take_mesh(truth, &scene, stated, error)
+                                    : chart_truth_find_mesh(truth, &comparison->cases[number], &scene,
+                                          comparison->rest, stated, error);
+  if (status == SBF_OK) add_own_error(comparison, number, measure->by);
   if (status == SBF_OK || error->code != SBF_CODE_BAD_CALL) return status;
-  snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number], "%.180s", error->message);
-  yard->broken[number] = true;
+  snprintf(comparison->unmeasured[number], sizeof comparison->unmeasured[number], "%.180s", error->message);
+  comparison->broken[number] = true;
   return SBF_OK;
 }
 
-sbf_status tune_yardstick_make(
-    tune_yardstick *yard, const sbf_asset *reference, const tune_measure *measure, sbf_diagnostic *error) {
-  *yard = (tune_yardstick){.size_m = tune_size_of(reference)};
-  sbf_status status = chart_bundle_cases(reference, measure->drive, &yard->bundle, yard->cases, error);
+sbf_status tune_comparison_create(tune_comparison *comparison, const sbf_asset *reference,
+    const tune_measure *measure, sbf_diagnostic *error) {
+  *comparison = (tune_comparison){.size_m = tune_size_of(reference)};
+  sbf_status status =
+      chart_bundle_cases(reference, measure->drive, &comparison->bundle, comparison->cases, error);
   uint32_t measured = 0;
   for (int i = 0; status == SBF_OK && i < CHART_BUNDLE_CASES; i++) {
-    status = find_truth(yard, i, reference, measure, error);
-    measured += !yard->unmeasured[i][0];
+    status = find_truth(comparison, i, reference, measure, error);
+    measured += !comparison->unmeasured[i][0];
   }
   if (status != SBF_OK || measured || measure->may_be_empty) return status;
   return fault_set(error, SBF_CODE_BAD_CALL,
       "there is no valid reference, not even its %s: %s; choose another lattice with --reference",
-      yard->cases[0].name, yard->unmeasured[0]);
+      comparison->cases[0].name, comparison->unmeasured[0]);
 }
 
-void tune_yardstick_free(tune_yardstick *yard) {
-  for (int i = 0; i < CHART_BUNDLE_CASES; i++) chart_truth_free(&yard->truths[i]);
-  free(yard->rest);
-  *yard = (tune_yardstick){.rest = NULL};
+void tune_comparison_free(tune_comparison *comparison) {
+  for (int i = 0; i < CHART_BUNDLE_CASES; i++) chart_truth_free(&comparison->truths[i]);
+  free(comparison->rest);
+  *comparison = (tune_comparison){.rest = NULL};
 }
 
 static void fail(tune_error *is, const char *motion, const char *why) {
@@ -101,9 +102,9 @@ static void fail(tune_error *is, const char *motion, const char *why) {
 }
 
 /* Measures one more motion. */
-static sbf_status check(const tune_yardstick *yard, int number, const sbf_asset *asset,
+static sbf_status check(const tune_comparison *comparison, int number, const sbf_asset *asset,
     const chart_setting *setting, bool far, tune_error *is, sbf_diagnostic *error) {
-  const chart_case *motion_case = &yard->cases[number];
+  const chart_case *motion_case = &comparison->cases[number];
   chart_scene scene = chart_scene_of(motion_case, asset);
   chart_motion motion;
   chart_track track = {.ticks = 0};
@@ -124,11 +125,11 @@ static sbf_status check(const tune_yardstick *yard, int number, const sbf_asset 
   for (uint32_t i = 0; good && track.sound && i < track.ticks; i++)
     is->min_volume = fmin(is->min_volume, track.volume[i]);
   is->max_strain = fmax(is->max_strain, track.max_strain);
-  bool compares = good && is->sound && !yard->unmeasured[number][0];
-  if (compares) good = tune_distances_between(&track, &yard->truths[number].track, &off);
+  bool compares = good && is->sound && !comparison->unmeasured[number][0];
+  if (compares) good = tune_distances_between(&track, &comparison->truths[number].track, &off);
   chart_track_free(&track);
   if (!good) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a motion");
-  if (compares && !(off.max_m < (far ? INFINITY : LOST * yard->size_m))) {
+  if (compares && !(off.max_m < (far ? INFINITY : LOST * comparison->size_m))) {
     fail(is, motion_case->name, "farther off than a twentieth of its size");
   } else if (compares) {
     if (!is->worst || off.max_m > is->off.max_m) is->worst = motion_case->name, is->worst_number = number;
@@ -137,13 +138,14 @@ static sbf_status check(const tune_yardstick *yard, int number, const sbf_asset 
   return SBF_OK;
 }
 
-sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asset,
+sbf_status tune_comparison_measure(const tune_comparison *comparison, const sbf_asset *asset,
     const chart_setting *setting, const tune_bar *bar, tune_error *is, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   *is = (tune_error){.sound = true, .min_volume = 1};
   for (int i = 0; status == SBF_OK && is->sound && !is->beaten && i < CHART_BUNDLE_CASES; i++) {
     int number = ((bar ? bar->first : 0) + i) % CHART_BUNDLE_CASES;
-    if (!yard->broken[number]) status = check(yard, number, asset, setting, bar && bar->far, is, error);
+    if (!comparison->broken[number])
+      status = check(comparison, number, asset, setting, bar && bar->far, is, error);
     is->beaten = bar && is->sound && i + 1 < CHART_BUNDLE_CASES &&
                  !(tune_distance_by(&is->off, bar->by) < bar->error_m);
   }
