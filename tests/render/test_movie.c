@@ -3,11 +3,13 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "harness.h"
 #include "left_behind.h"
+#include "random.h"
 #include "render/child_pipe.h"
 #include "render/movie.h"
 #include "sbfmt/codes.h"
@@ -110,6 +112,45 @@ START_TEST(ffmpeg_fails)
 }
 END_TEST
 
+/* Noise, of which a film needs more room than there is. ffmpeg exits with 0 then for some kinds. */
+START_TEST(disk_is_full)
+{
+  static const char *const names[] = {"full.gif", "full.mp4", "full.webp"};
+  static const rlim_t room[] = {0, 4096};
+  static uint8_t noise[64 * 64 * 3];
+  draw_movie *movie;
+  sbf_diagnostic error = {0};
+  uint32_t state = 1;
+  if (!have_ffmpeg()) return;
+  draw_movie_options options = {
+      .kind = (draw_movie_kind)(_i % 3), .width = 64, .height = 64, .fps = 20, .frame_count = 4};
+  const char *path = harness_scratch(names[_i % 3]);
+  ck_assert(harness_write(path, "old", 3));
+  signal(SIGXFSZ, SIG_IGN); /* which ffmpeg inherits: its writes fail as on a full disk */
+  struct rlimit limit;
+  ck_assert_int_eq(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  limit.rlim_cur = room[_i / 3];
+  ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  sbf_status status = draw_movie_open(&movie, path, &options, &error);
+  for (int frame = 0; frame < 4 && status == SBF_OK; frame++) {
+    for (size_t i = 0; i < sizeof noise; i++) noise[i] = (uint8_t)(random_next(&state) >> 16);
+    status = draw_movie_add_frame(movie, noise, &error);
+  }
+  status = status == SBF_OK ? draw_movie_finish(movie, &error) : (draw_movie_abandon(movie), status);
+  limit.rlim_cur = limit.rlim_max;
+  ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  ck_assert_int_eq(status, SBF_FAILED);
+  ck_assert_int_eq(error.code, SBF_CODE_FFMPEG_FAILED);
+  size_t size;
+  char *bytes = harness_read(path, &size);
+  ck_assert_uint_eq(size, 3);
+  ck_assert_mem_eq(bytes, "old", 3);
+  free(bytes);
+  ck_assert_int_eq(left_behind(names[_i % 3]), 1);
+  unlink(path);
+}
+END_TEST
+
 START_TEST(abandoned)
 {
   draw_movie *movie;
@@ -191,6 +232,7 @@ int main(void) {
   tcase_add_loop_test(tests, film_is_whole, 0, 4);
   tcase_add_loop_test(tests, no_ffmpeg, 0, 2);
   tcase_add_loop_test(tests, ffmpeg_fails, 0, 2);
+  tcase_add_loop_test(tests, disk_is_full, 0, 6);
   tcase_add_test(tests, abandoned);
   tcase_add_loop_test(tests, interrupted, 0, 3);
   tcase_add_loop_test(tests, wrong_calls, 0, 6);

@@ -7,11 +7,13 @@
 
 #include "render/child_pipe.h"
 #include "render/fault.h"
+#include "render/movie_check.h"
 #include "render/output_file.h"
 
 struct draw_movie {
   child_pipe child;
   output_file output;
+  draw_movie_kind kind;
   size_t frame_size;
   uint32_t frames;
 };
@@ -81,6 +83,7 @@ sbf_status draw_movie_open(
   if (status != SBF_OK) return status;
   draw_movie *made = calloc(1, sizeof *made);
   if (!made) return fault_set_file(diagnostic, SBF_CODE_OUT_OF_MEMORY, path, "no memory for a film");
+  made->kind = options->kind;
   made->frame_size = (size_t)options->width * options->height * 3;
   status = output_file_begin(&made->output, path, diagnostic);
   if (status != SBF_OK) {
@@ -140,6 +143,9 @@ sbf_status draw_movie_finish(draw_movie *movie, sbf_diagnostic *diagnostic) {
   else if (movie->child.process <= 0 || !end_child(movie, said, sizeof said))
     status = fault_set_file(diagnostic, SBF_CODE_FFMPEG_FAILED, movie->output.given, "ffmpeg failed: %s",
         said[0] ? said : "it gave no reason");
+  else if (!draw_movie_file_is_whole(movie->kind, movie->output.written_path))
+    status = fault_set_file(diagnostic, SBF_CODE_FFMPEG_FAILED, movie->output.given,
+        "ffmpeg did not write all of it: %s; check the free space", said[0] ? said : "it gave no reason");
   if (status == SBF_OK) status = output_file_commit(&movie->output, diagnostic);
   draw_movie_abandon(movie);
   return status;
