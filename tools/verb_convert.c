@@ -196,6 +196,24 @@ static int convert_all(cli_call *call, sbf_convert_options *options) {
   return status;
 }
 
+/* Inputs are read several times: to find their format, to convert, and to note their hash. Opening a pipe
+ * again would wait for a writer for ever. False, with a message, if the input is one. */
+static bool is_no_pipe(const cli_call *call, const char *path) {
+  struct stat facts;
+  if (!path || stat(path, &facts) != 0 || S_ISREG(facts.st_mode) || S_ISDIR(facts.st_mode)) return true;
+  cli_wrong(call, "%s: this is a pipe or a device: save its content to a file and name that file", path);
+  return false;
+}
+
+static bool are_no_pipes(const cli_call *call) {
+  bool good = is_no_pipe(call, cli_value(call, "--rig"));
+  for (int i = 0; good && i < call->input_count; i++) good = is_no_pipe(call, call->inputs[i]);
+  const char *motion;
+  for (int at = 0; good && (motion = cli_next_value(call, "--motion", &at)) != NULL;)
+    good = is_no_pipe(call, motion);
+  return good;
+}
+
 /* A bundle is converted already: it takes motions and builds only. False, with a message, otherwise. */
 static bool fits_bundles(const cli_call *call) {
   static const char *const of_sources[] = {"--rig", "--weights", "--unit", "--up", "--forward", "--gait",
@@ -225,7 +243,7 @@ static int run(cli_call *call) {
   if (!out == !folder)
     return cli_wrong(call, "state the output: -o FILE for one input, --out-dir DIR for several");
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
-  if (!output_name_of_bundle(call, "-o") || !fits_bundles(call) ||
+  if (!output_name_of_bundle(call, "-o") || !are_no_pipes(call) || !fits_bundles(call) ||
       !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) || !cli_word(call, "--up", axes, 2, &up) ||
       !cli_word(call, "--forward", fronts, 6, &front) || !cli_word(call, "--limits", animals, 4, &limits) ||
       !cli_word(call, "--gait", kinds, 7, &kind) || !read_budget(call, call->inputs[0], &budget_us) ||

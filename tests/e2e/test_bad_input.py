@@ -197,6 +197,19 @@ class Calls(ProgramTest):
         self.assertIn('found "1,0" where a line "v" needs a number: use a decimal point',
                       self.fails(BAD_INPUT, "convert", comma, "-o", self.path("x.sbf")))
 
+    def test_pipes_are_refused_before_they_are_opened(self):
+        """They have no writer: opening one would not return."""
+        mesh = write_bytes(self.path("cube.obj"), CUBE)
+        for name in ("p.obj", "p.xml", "p.vtk", "p.glb", "p.sbf"):
+            pipe = self.path(name)
+            os.mkfifo(pipe)
+            for arguments in ((pipe,), (mesh, "--rig", pipe), (mesh, "--motion", pipe)):
+                with self.subTest(name, arguments=arguments[1:-1]):
+                    said = self.fails(FAILED, "convert", *arguments, "-o", self.path("x.sbf"), timeout=20)
+                    self.assertIn(f"{pipe}: this is a pipe or a device: save its content to a file", said)
+            os.remove(pipe)
+        self.assert_empty_folder(but=["cube.obj"])
+
     def test_inputs_and_outputs_that_cannot_be_meant(self):
         self.assertIn("standard input is not supported", self.fails(FAILED, "info", "-"))
         said = self.fails(FAILED, "unpack", self.file, "-o", self.path("a.sbf"), "-o", self.path("b.sbf"))
