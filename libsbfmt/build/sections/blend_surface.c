@@ -4,8 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A fixed point becomes free after this many contractions of its triangles. */
-enum { MAX_SWEEPS = 1000, FIXED_CONTRACTIONS = 40 };
+/* A fixed point becomes free after this many contractions of its triangles. Characters need up to 20 checks a
+ * triangle. Bones that are far from the skin for the size of its triangles need weights equal to more digits
+ * than numbers have: no number of sweeps is enough. */
+enum { MAX_SWEEPS = 1000, MAX_CHECKS = 100, FIXED_CONTRACTIONS = 40 };
 static const double MAX_STRETCH = 1.9; /* leaves a margin for rounding and dropped weights */
 static const double FLIPPED = 2.2;
 static const double HARMLESS = 0.37;                         /* see is_harmless */
@@ -334,13 +336,15 @@ static uint32_t next_pending(const uint8_t *pending, uint32_t from, uint32_t cou
 /* Alternates the direction along the surface, so that weights travel along a whole limb in one sweep. */
 static bool sweep_all(work *w, uint32_t *left) {
   uint32_t count = w->s->triangle_count;
-  for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
+  uint64_t checks = 0;
+  for (int sweep = 0; sweep < MAX_SWEEPS && checks <= (uint64_t)MAX_CHECKS * count; sweep++) {
     const bool down = sweep % 2;
     *left = 0;
     for (uint32_t n = 0; (n = next_pending(w->pending, n, count, down)) < count; n++) {
       uint32_t i = down ? count - 1 - n : n;
       double stretch;
       w->pending[i] = 0;
+      checks++;
       if (!find_stretch(w, i, &stretch)) return false;
       if (stretch <= MAX_STRETCH) continue;
       ++*left;
