@@ -2,10 +2,10 @@
 
 #include <stdlib.h>
 
-/* Volume ratio below which an element is crushed, and number of frames after which its body counts as
- * crushed. */
-static const float CRUSHED_RATIO = 0.2f;
-enum { CRUSHED_FRAMES = 30 };
+/* Volume ratio below which an element is crushed, strain above which it is overstretched, and number of
+ * frames at the end from which on its body stays so. No material of a character stretches ten times. */
+static const float CRUSHED_RATIO = 0.2f, MAX_STRAIN = 9;
+enum { LASTING_FRAMES = 30 };
 
 bool recovery_report_begin(recovery_report *r, const sbf_asset *asset) {
   r->body_count = asset->soft_bodies.count;
@@ -31,6 +31,18 @@ void recovery_report_measure(recovery_report *r, uint32_t body, const sbr_body_h
   count->crushed += crushed;
   count->crushed_row = crushed ? count->crushed_row + 1 : 0;
   if (health->min_element_ratio < count->min_ratio) count->min_ratio = health->min_element_ratio;
+  count->inverted += health->inverted;
+  bool stretched = health->max_strain > MAX_STRAIN;
+  count->stretched += stretched;
+  count->stretched_row = stretched ? count->stretched_row + 1 : 0;
+  if (health->max_strain > count->max_strain) count->max_strain = health->max_strain;
+}
+
+bool recovery_report_is_valid(const recovery_report *r) {
+  bool valid = true;
+  for (uint32_t i = 0; i < r->body_count; i++)
+    valid = valid && !r->bodies[i].total && !r->bodies[i].inverted && !r->bodies[i].stretched;
+  return valid;
 }
 
 uint64_t recovery_report_total(const recovery_report *r) {
@@ -54,6 +66,23 @@ static json_t *crushing_of(const recovery_count *count) {
   return one;
 }
 
+static json_t *inversion_of(const recovery_count *count) {
+  return json_pack("{s:I}", "frames", (json_int_t)count->inverted);
+}
+
+static json_t *stretching_of(const recovery_count *count) {
+  return json_pack(
+      "{s:I, s:f}", "frames", (json_int_t)count->stretched, "max_strain", (double)count->max_strain);
+}
+
+/* Names need not be unique: the id tells bodies of one name apart. */
+static void add_body(json_t *bodies, const sbf_soft_body *body, json_t *facts) {
+  char key[256];
+  snprintf(key, sizeof key, json_object_get(bodies, body->name) ? "%.100s (%.100s)" : "%.100s", body->name,
+      body->id);
+  json_object_set_new(bodies, key, facts);
+}
+
 static void add_where_any(json_t *to, const char *key, json_t *bodies) {
   if (json_object_size(bodies) > 0)
     json_object_set_new(to, key, bodies);
@@ -62,15 +91,20 @@ static void add_where_any(json_t *to, const char *key, json_t *bodies) {
 }
 
 void recovery_report_add(const recovery_report *r, const sbf_asset *asset, json_t *to) {
-  json_t *recovered = json_object(), *crushed = json_object();
+  json_t *recovered = json_object(), *inverted = json_object(), *stretched = json_object(),
+         *crushed = json_object();
   json_object_set_new(to, "recoveries", json_integer((json_int_t)recovery_report_total(r)));
   for (uint32_t i = 0; i < r->body_count; i++) {
     const recovery_count *count = &r->bodies[i];
-    const char *name = asset->soft_bodies.at[i].name;
-    if (count->total) json_object_set_new(recovered, name, recovery_of(count));
-    if (count->crushed) json_object_set_new(crushed, name, crushing_of(count));
+    const sbf_soft_body *body = &asset->soft_bodies.at[i];
+    if (count->total) add_body(recovered, body, recovery_of(count));
+    if (count->inverted) add_body(inverted, body, inversion_of(count));
+    if (count->stretched) add_body(stretched, body, stretching_of(count));
+    if (count->crushed) add_body(crushed, body, crushing_of(count));
   }
   add_where_any(to, "recovered", recovered);
+  add_where_any(to, "inverted", inverted);
+  add_where_any(to, "stretched", stretched);
   add_where_any(to, "crushed", crushed);
 }
 
@@ -81,12 +115,20 @@ void recovery_report_warn(const recovery_report *r, const sbf_asset *asset) {
     if (count->rigid > 0)
       fprintf(stderr,
           "sbfmt run: warning: soft body \"%s\" was reset to its rest shape %u times and moved as a rigid "
-          "body in %u frames: look for slivers with `sbfmt validate`, or use more substeps\n",
+          "body in %u frames: look for slivers with `sbfmt validate`, use more substeps, or keep its bones "
+          "out "
+          "of the ground\n",
           name, count->total, count->rigid);
-    if (count->crushed_row >= CRUSHED_FRAMES)
+    if (count->crushed_row >= LASTING_FRAMES)
       fprintf(stderr,
           "sbfmt run: warning: soft body \"%s\" ends crushed: an element had less than %g of its volume in "
           "the last %u frames: move its bones more slowly, or use a stiffer material\n",
           name, (double)CRUSHED_RATIO, count->crushed_row);
+    if (count->stretched_row >= LASTING_FRAMES)
+      fprintf(stderr,
+          "sbfmt run: warning: soft body \"%s\" ends overstretched: an element had more than %g times its "
+          "length in the last %u frames: use smaller steps of the ground, a lower speed or a stiffer "
+          "material\n",
+          name, (double)MAX_STRAIN + 1, count->stretched_row);
   }
 }

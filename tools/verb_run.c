@@ -61,7 +61,7 @@ static void read_health(run_state *r) {
   r->end_volume = 1;
   for (uint32_t i = 0; i < r->s.asset->soft_bodies.count; i++) {
     sbr_body_health health = sbr_character_get_body_health(r->s.world, r->s.character, i);
-    r->valid = r->valid && health.finite && !health.inverted;
+    r->valid = r->valid && health.finite;
     recovery_report_measure(&r->recoveries, i, &health);
     r->end_volume = fmin(r->end_volume, (double)health.volume_ratio);
     r->max_strain = fmax(r->max_strain, (double)health.max_strain);
@@ -182,7 +182,7 @@ static json_t *report(const run_state *r) {
   json_object_set_new(o, "substeps", json_integer(sbr_model_get_substeps(r->s.model)));
   json_object_set_new(o, "us_per_frame", json_real(r->s.frame ? 1e6 * r->busy_s / r->s.frame : 0));
   json_object_set_new(o, "state_hash", json_string(hash));
-  json_object_set_new(o, "valid", json_boolean(r->valid && recovery_report_total(&r->recoveries) == 0));
+  json_object_set_new(o, "valid", json_boolean(r->valid && recovery_report_is_valid(&r->recoveries)));
   recovery_report_add(&r->recoveries, r->s.asset, o);
   json_object_set_new(o, "energy", json_real(energy(r)));
   json_object_set_new(o, "volume_ratio", json_real(r->end_volume));
@@ -281,10 +281,11 @@ static const cli_option options[] = {
 const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S[,UP]] [--ground KIND] ...",
     "simulate a character and print measures",
     "Loads the file, simulates it and prints measures of the run.\n\n"
-    "`valid` is true if at every frame all numbers were finite, no element was inverted and\n"
-    "no body was put back into its rest shape. `recoveries` counts how often bodies were put\n"
-    "back, `recovered` names them. `crushed` names bodies with an element below a fifth of\n"
-    "its volume. `volume_ratio` is the smallest ratio of all sections at the end,\n"
+    "`valid` is true if at every frame all numbers were finite, no element was inverted or longer\n"
+    "than ten times its rest length, and no body was put back into its rest shape. `recoveries`\n"
+    "counts how often bodies were put back; `recovered`, `inverted`, `stretched` and `crushed` (an\n"
+    "element below a fifth of its volume) name the bodies. `volume_ratio` is the smallest ratio of all "
+    "sections at the end,\n"
     "`volume_ratio_least` at any frame. Slip and penetration are measured at the skin's\n"
     "soles. docs/gait.md explains the measures of the gait.\n\n"
     "With --ragdoll or --strength, `limit_excess` is the maximum angle in degrees by which a\n"

@@ -1,4 +1,4 @@
-"""`sbfmt run` tells of bodies that were put back into their rest shape, how often, and which."""
+"""`sbfmt run` tells of bodies that lost their shape: put back into it and how often, inside out, overstretched, crushed."""
 
 import os
 
@@ -27,7 +27,8 @@ class Recoveries(ProgramTest):
         report = self.run_json()
         self.assertEqual((report["valid"], report["recoveries"]), (True, 0))
         self.assertNotIn("recovered", report)
-        self.assertNotIn("crushed", report)
+        for key in ("inverted", "stretched", "crushed"):
+            self.assertNotIn(key, report)
 
     def test_an_explosion_is_counted(self):
         report = self.run_json("--scheme", "explicit_euler", "--substeps", "1")
@@ -36,6 +37,23 @@ class Recoveries(ProgramTest):
         self.assertEqual(report["recovered"]["cube"]["recoveries"], report["recoveries"])
         self.assertLess(report["crushed"]["cube"]["min_element_ratio"], 0.2)
         self.assertGreater(report["crushed"]["cube"]["frames"], 0)
+        self.assertGreater(report["inverted"]["cube"]["frames"], 0)
+        self.assertGreater(report["stretched"]["cube"]["max_strain"], 9)
+
+    def test_what_is_stretched_beyond_any_material_is_not_valid(self):
+        """Two bodies of one name, each one region of four points, fall onto a corner at a few frames a second."""
+        source, file = self.path("two.obj"), self.path("two.sbf")
+        corners = ((0, 0, 0), (.2, 0, 0), (0, .2, 0), (0, 0, .2))
+        points = [f"v {x + at} {y} {z}\n" for at in (0, 5) for x, y, z in corners]
+        faces = ((1, 3, 2), (1, 2, 4), (1, 4, 3), (2, 3, 4))
+        objects = ["o twin\n" + "".join(f"f {a + at} {b + at} {c + at}\n" for a, b, c in faces) for at in (0, 4)]
+        write_bytes(source, "".join(points + objects).encode())
+        self.good("convert", source, "-o", file, "--material", "muscle", "--springs", "shape_matching")
+        arguments = ("run", file, "--free", "--raise", 5, "--fps", 7, "--seconds", 3)
+        report = self.json_of(*arguments)
+        self.assertEqual((report["valid"], report["recoveries"]), (False, 0))
+        self.assertEqual(len(report["stretched"]), 2)
+        self.assertEqual(max(one["max_strain"] for one in report["stretched"].values()), report["max_strain"])
 
     def test_what_its_own_walk_strains_is_left_alone(self):
         """A calf of 7 m on stairs: the pins of its soft parts accelerate by more than gravity."""
