@@ -278,6 +278,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_PIN_UNKNOWN", SBF_CODE_IMPORT_PIN_UNKNOWN, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A pin or an attachment names a group, an object or a bone that the input does not have: sbfmt info lists them."},
   {"MATERIAL_GUESSED", SBF_CODE_MATERIAL_GUESSED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Bodies without a material use soft tissue for sections, else the default or a modulus that bears their weight: choose one with --material."},
   {"IMPORT_FACING", SBF_CODE_IMPORT_FACING, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character did not face +Z and was rotated: state --forward if that is wrong."},
+  {"IMPORT_FAR", SBF_CODE_IMPORT_FAR, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "An object is so far from the origin that single precision rounds its shape: move it to the origin in its program."},
   {"IMPORT_TETRAHEDRA_TURNED", SBF_CODE_IMPORT_TETRAHEDRA_TURNED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra were inverted and their points were reordered: no action is needed."},
   {"IMPORT_TETRAHEDRA_FLAT", SBF_CODE_IMPORT_TETRAHEDRA_FLAT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra without volume were left out: mesh the volume again if parts are missing."},
   {"IMPORT_WEIGHTS_IMPOSSIBLE", SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Skin weights cannot be computed: use a mesh with a surface, and a rig with bones that deform it."},

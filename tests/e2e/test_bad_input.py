@@ -428,6 +428,16 @@ class HalfACharacter(ProgramTest):
         self.assertNotIn("UNIT_LOOKS_WRONG",
                          self.good("convert", source, "--unit", "0.0254", "-o", self.path("y.sbf")).err)
 
+    def test_what_is_too_far_from_the_origin_for_its_digits_is_told(self):
+        """A scan in the coordinates of a map: at 500 km a float has steps of 3 to 6 cm."""
+        for far, told in ((0, False), (1000, False), (500000, True)):
+            moved = CUBE.replace(b"v 0 ", b"v %d " % far).replace(b"v 1 ", b"v %d " % (far + 1))
+            source = write_bytes(self.path("scan.obj"), moved)
+            for arguments in ((), ("--unit", "1")):
+                said = self.good("convert", source, "-o", self.path("x.sbf"), "--no-build", *arguments).err
+                self.assertEqual(told, "[IMPORT_FAR]" in said, said)
+        self.assertRegex(said, r"object '.*' lies 5e\+05 m from the origin, .* of 0\.06 m, 6 % of its size of 1 m: move it")
+
     def test_a_missing_material_library_is_a_warning(self):
         source = write_bytes(self.path("x.obj"), b"mtllib gone.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 1 0\n"
                              b"usemtl skin\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n")

@@ -1,4 +1,6 @@
-/* Warns about implausible sizes, because files often have a wrong unit or state none. */
+/* Warns about implausible sizes, because files often have a wrong unit or state none, and about objects that
+ * are too far from the origin for their size, such as scans in the coordinates of a map. */
+#include <float.h>
 #include <math.h>
 
 #include "import/convert/conversion.h"
@@ -10,6 +12,8 @@ static const double TALLEST = 3, USUAL = 1.75;
 static const double MIN_UNIT = 1e-9, MAX_UNIT = 1e9;
 /* multiple of the bones' extent; a loose object larger than that is no part of a character */
 static const double SURROUNDINGS = 5;
+/* fraction of an object's extent; coarser steps of its positions show */
+static const double MAX_ROUNDING = 1e-3;
 
 static double extent_of_bones(const sbf_bone_list *bones) {
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0;
@@ -55,19 +59,47 @@ static void check_person(sbfi_conversion *c, double size) {
       size / unit_m, c->rig_file->file, bones, unit, unit * size / unit_m, unit_m);
 }
 
-static double extent_of_mesh(const sbf_render_mesh *mesh) {
-  double extent = 0;
+/* Greatest extent along an axis, and greatest coordinate of either sign. */
+typedef struct region {
+  double extent, distance;
+} region;
+
+static region region_of(const sbf_vec3_list *points) {
+  region r = {0, 0};
   for (int k = 0; k < 3; k++) {
     double low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < mesh->mesh.positions.count; i++) {
-      const sbf_vec3 p = mesh->mesh.positions.at[i];
-      const double at[3] = {(double)p.x, (double)p.y, (double)p.z};
+    for (uint32_t i = 0; i < points->count; i++) {
+      const double at[3] = {(double)points->at[i].x, (double)points->at[i].y, (double)points->at[i].z};
       low = fmin(low, at[k]);
       high = fmax(high, at[k]);
     }
-    extent = fmax(extent, high - low);
+    r.extent = fmax(r.extent, high - low);
+    if (points->count) r.distance = fmax(r.distance, fmax(fabs(low), fabs(high)));
   }
-  return extent;
+  return r;
+}
+
+static double extent_of_mesh(const sbf_render_mesh *mesh) {
+  return region_of(&mesh->mesh.positions).extent;
+}
+
+static void check_distance(sbfi_conversion *c, const char *name, const sbf_vec3_list *points) {
+  const region r = region_of(points);
+  double distance = fmax(r.distance, c->moved_m), step = distance * (double)FLT_EPSILON;
+  if (!(step > MAX_ROUNDING * r.extent) || r.extent == 0) return;
+  sbfi_convert_warn(c, SBF_CODE_IMPORT_FAR,
+      "object '%s' lies %.4g m from the origin, where single precision has steps of %.2g m, %.2g %% of its "
+      "size "
+      "of %.4g m: move it to the origin in its program",
+      name, distance, step, 100 * step / r.extent, r.extent);
+}
+
+static void check_distances(sbfi_conversion *c) {
+  const sbf_asset *a = c->asset;
+  for (uint32_t i = 0; i < a->render_meshes.count; i++)
+    check_distance(c, a->render_meshes.at[i].name, &a->render_meshes.at[i].mesh.positions);
+  for (uint32_t i = 0; i < a->soft_bodies.count && !a->render_meshes.count; i++)
+    check_distance(c, a->soft_bodies.at[i].name, &a->soft_bodies.at[i].surface.positions);
 }
 
 /* A floor beside a character says nothing about its unit. True if there is one. */
@@ -108,6 +140,7 @@ static void report_size(sbfi_conversion *c, double size, double scale) {
 void sbfi_check_size(sbfi_conversion *c) {
   double size = sbfi_asset_extent(c->asset), scale = sbfi_plausible_scale(size);
   bool bare_rig = c->rig_file && !c->rig_file->unit_known && c->rig_file->mesh_count == 0;
+  check_distances(c);
   if (c->options->unit_m > 0) return; /* the user is trusted */
   if (scale == 1 && c->scene->mesh_count == 0) {
     check_bones(c);

@@ -18,7 +18,8 @@ typedef struct sbfi_conversion {
   const sbfi_scene *rig;   /* source of the bones: the same scene if it has bones; NULL if there are none */
   const sbfi_scene *rig_file; /* what was read of a separate rig; NULL if there is none */
   sbfi_matrix to_asset, rig_to_asset;
-  double lift_m; /* height by which the asset was raised, m */
+  double lift_m;  /* height by which the asset was raised, m */
+  double moved_m; /* greatest distance along an axis by which it was moved, m */
   sbf_asset *asset;
   sbfi_arena scratch;
   sbfi_id_set ids;
@@ -53,7 +54,7 @@ sbf_status sbfi_stand_on_ground(sbfi_conversion *c);
 sbf_status sbfi_convert_joints(sbfi_conversion *c);
 /* After ground: converts the rig's animations to tracks of bones. */
 sbf_status sbfi_convert_clips(sbfi_conversion *c);
-/* Last: warns of a size that suggests another unit. */
+/* Last: warns of a size that suggests another unit, and of objects too far from the origin. */
 void sbfi_check_size(sbfi_conversion *c);
 /* After meshes: measures the length of leaf bones by their sections or skin. */
 sbf_status sbfi_measure_leaf_bones(sbfi_conversion *c);

@@ -79,6 +79,7 @@ static sbf_status stand_at_origin(sbfi_conversion *c) {
   const double by[3] = {-x, 0, -z};
   if (x == 0 && z == 0) return SBF_OK;
   move_asset(c->asset, by);
+  c->moved_m = fmax(fabs(x), fabs(z));
   for (int k = 0; k < 3; k++) { /* later passes use these matrices */
     c->to_asset.at[k][3] += by[k];
     c->rig_to_asset.at[k][3] += by[k];
@@ -97,6 +98,7 @@ sbf_status sbfi_stand_on_ground(sbfi_conversion *c) {
   if (!(fabs(s.low) > STANDS * height)) return SBF_OK;
   move_asset(c->asset, (const double[3]){0, -s.low, 0});
   c->lift_m = -s.low;
+  c->moved_m = fmax(c->moved_m, fabs(s.low));
   sbfi_convert_warn(c, SBF_CODE_IMPORT_GROUND,
       "the character's %s at y = %.3g m and not at 0, where the ground is: all of it was moved by %.3g m",
       c->asset->gaits.at[0].legs.count ? "feet are" : "lowest point is", s.low, -s.low);

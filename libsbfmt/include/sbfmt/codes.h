@@ -289,6 +289,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_PIN_UNKNOWN = 956, /* A pin or an attachment names a group, an object or a bone that the input does not have: sbfmt info lists them. */
   SBF_CODE_MATERIAL_GUESSED = 957, /* Bodies without a material use soft tissue for sections, else the default or a modulus that bears their weight: choose one with --material. */
   SBF_CODE_IMPORT_FACING = 958, /* The character did not face +Z and was rotated: state --forward if that is wrong. */
+  SBF_CODE_IMPORT_FAR = 959, /* An object is so far from the origin that single precision rounds its shape: move it to the origin in its program. */
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra were inverted and their points were reordered: no action is needed. */
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out: mesh the volume again if parts are missing. */
   SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE = 970, /* Skin weights cannot be computed: use a mesh with a surface, and a rig with bones that deform it. */
