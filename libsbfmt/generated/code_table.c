@@ -219,7 +219,7 @@ static const sbf_code_info table[] = {
   {"RIG_WEIGHTS", SBF_CODE_RIG_WEIGHTS, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Points of the input were assigned to bones, by name, position, nearest surface, from the bones or from a file: change that with --weights."},
   {"RIG_MISFIT", SBF_CODE_RIG_MISFIT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The rig does not fit the input: use the character's own rig, state its unit and axes, or choose other weights."},
   {"RIG_WEIGHTS_FILE", SBF_CODE_RIG_WEIGHTS_FILE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A file of weights has an unknown bone or point, or an invalid number: correct the line given."},
-  {"RIG_WEIGHTS_LOST", SBF_CODE_RIG_WEIGHTS_LOST, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Weights of points sum to much less than one, for example because joints are missing: export the skin again."},
+  {"RIG_WEIGHTS_LOST", SBF_CODE_RIG_WEIGHTS_LOST, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Weights of points do not sum to one, for example because joints are missing, and are scaled: export the skin again."},
   {"RIG_OBJECT_APART", SBF_CODE_RIG_OBJECT_APART, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "No bone is inside or near an object with computed weights: if it is another character, convert it with its own rig."},
   {"SOFTNESS_PROPOSED", SBF_CODE_SOFTNESS_PROPOSED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Soft and rigid parts of the character were chosen: change them with --soft and --rigid."},
   {"RIG_OTHER_MESH", SBF_CODE_RIG_OTHER_MESH, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The rig's own mesh differs from the input, or bones are outside it: use the rig of this character in the same pose, or --weights compute or transfer if it is right."},

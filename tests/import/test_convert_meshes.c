@@ -254,7 +254,7 @@ START_TEST(skins_are_normalised)
   ck_assert_uint_eq(skin->bones.at[3], 1);
   ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_UNWEIGHTED_POINTS), 1);
   ck_assert_ptr_nonnull(strstr(converted_note(&c, SBF_CODE_RIG_UNWEIGHTED_POINTS)->message, "joints"));
-  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_WEIGHTS_LOST), 1);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_WEIGHTS_LOST), 2); /* too little, and too much */
   ck_assert_ptr_nonnull(strstr(converted_note(&c, SBF_CODE_RIG_WEIGHTS_LOST)->message, "of 1 points"));
   ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_NO_SECTIONS), 1);
   converted_free(&c);

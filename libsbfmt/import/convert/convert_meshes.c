@@ -242,11 +242,12 @@ static sbf_status convert_slots(sbfi_conversion *c, const sbfi_scene_mesh *mesh,
   return SBF_OK;
 }
 
-/* Exporters round weights. A smaller sum means that weights of unknown joints are missing. */
-static const double MIN_WEIGHT_SUM = 0.9;
+/* Exporters round weights. A smaller sum means that weights of unknown joints are missing, a larger one that
+ * weights are wrong or stated twice. */
+static const double MIN_WEIGHT_SUM = 0.9, MAX_WEIGHT_SUM = 1.1;
 
 static void report_weights(
-    sbfi_conversion *c, const sbfi_scene_mesh *mesh, uint32_t unweighted, uint32_t lost) {
+    sbfi_conversion *c, const sbfi_scene_mesh *mesh, uint32_t unweighted, uint32_t lost, uint32_t excessive) {
   const char *name = c->scene->nodes[mesh->node].name;
   if (unweighted)
     sbfi_convert_warn(c, SBF_CODE_RIG_UNWEIGHTED_POINTS,
@@ -258,6 +259,11 @@ static void report_weights(
         "object '%s': the weights of %u points summed to less than %g, for example because joints are "
         "missing, and were scaled to 1: export the skin again",
         name, lost, MIN_WEIGHT_SUM);
+  if (excessive)
+    sbfi_convert_warn(c, SBF_CODE_RIG_WEIGHTS_LOST,
+        "object '%s': the weights of %u points summed to more than %g and were scaled to 1: export the skin "
+        "again",
+        name, excessive, MAX_WEIGHT_SUM);
 }
 
 /* Converts weights to bones; they sum to 1 at each point. A point without weights follows the mesh's node. */
@@ -269,7 +275,7 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
   float *weights = sbfi_convert_allocate(c, total + mesh->point_count, sizeof *weights);
   if (!skin || !counts || !bones || !weights) return sbfi_convert_no_memory(c);
   int32_t home = c->bone_of_node[mesh->node];
-  uint32_t at = 0, unweighted = 0, lost = 0;
+  uint32_t at = 0, unweighted = 0, lost = 0, excessive = 0;
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     double sum = 0;
     for (uint32_t s = mesh->skin.starts[i]; s < mesh->skin.starts[i + 1]; s++)
@@ -282,6 +288,7 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
       continue;
     }
     lost += sum < MIN_WEIGHT_SUM;
+    excessive += sum > MAX_WEIGHT_SUM;
     for (uint32_t s = mesh->skin.starts[i]; s < mesh->skin.starts[i + 1]; s++) {
       int32_t bone = c->bone_of_node[mesh->skin.joints[mesh->skin.joint_index[s]].node];
       counts[i]++;
@@ -289,7 +296,7 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
       weights[at++] = (float)((double)mesh->skin.weights[s] / sum);
     }
   }
-  report_weights(c, mesh, unweighted, lost);
+  report_weights(c, mesh, unweighted, lost, excessive);
   sbf_skin_init(skin);
   skin->influence_counts = (sbf_u32_list){counts, mesh->point_count};
   skin->bones = (sbf_u32_list){bones, at};

@@ -230,7 +230,7 @@ typedef enum sbf_code {
   SBF_CODE_RIG_WEIGHTS = 782, /* Points of the input were assigned to bones, by name, position, nearest surface, from the bones or from a file: change that with --weights. */
   SBF_CODE_RIG_MISFIT = 783, /* The rig does not fit the input: use the character's own rig, state its unit and axes, or choose other weights. */
   SBF_CODE_RIG_WEIGHTS_FILE = 784, /* A file of weights has an unknown bone or point, or an invalid number: correct the line given. */
-  SBF_CODE_RIG_WEIGHTS_LOST = 785, /* Weights of points sum to much less than one, for example because joints are missing: export the skin again. */
+  SBF_CODE_RIG_WEIGHTS_LOST = 785, /* Weights of points do not sum to one, for example because joints are missing, and are scaled: export the skin again. */
   SBF_CODE_RIG_OBJECT_APART = 786, /* No bone is inside or near an object with computed weights: if it is another character, convert it with its own rig. */
   SBF_CODE_SOFTNESS_PROPOSED = 787, /* Soft and rigid parts of the character were chosen: change them with --soft and --rigid. */
   SBF_CODE_RIG_OTHER_MESH = 788, /* The rig's own mesh differs from the input, or bones are outside it: use the rig of this character in the same pose, or --weights compute or transfer if it is right. */
