@@ -2,15 +2,17 @@
 
 #include <stdlib.h>
 
-/* Volume ratio below which an element is crushed, strain above which it is overstretched, and number of
- * frames at the end from which on its body stays so. No material of a character stretches ten times. */
-static const float CRUSHED_RATIO = 0.2f, MAX_STRAIN = 9;
+/* Volume ratios below which an element and a whole body are crushed, strain above which an element is
+ * overstretched, and number of frames at the end from which on its body stays so. Springs can fold without an
+ * element that tells. No material of a character stretches ten times. */
+static const float CRUSHED_RATIO = 0.2f, CRUSHED_BODY_RATIO = 0.5f, MAX_STRAIN = 9;
 enum { LASTING_FRAMES = 30 };
 
 bool recovery_report_begin(recovery_report *r, const sbf_asset *asset) {
   r->body_count = asset->soft_bodies.count;
   r->bodies = calloc(r->body_count + 1, sizeof *r->bodies);
-  for (uint32_t i = 0; r->bodies && i < r->body_count; i++) r->bodies[i].min_ratio = 1;
+  for (uint32_t i = 0; r->bodies && i < r->body_count; i++)
+    r->bodies[i].min_ratio = r->bodies[i].min_volume_ratio = 1;
   return r->bodies != NULL;
 }
 
@@ -27,10 +29,11 @@ void recovery_report_measure(recovery_report *r, uint32_t body, const sbr_body_h
   count->rigid += health->rigid;
   count->row = more ? count->row + 1 : 0;
   if (count->row > count->longest) count->longest = count->row;
-  bool crushed = health->min_element_ratio < CRUSHED_RATIO;
+  bool crushed = health->min_element_ratio < CRUSHED_RATIO || health->volume_ratio < CRUSHED_BODY_RATIO;
   count->crushed += crushed;
   count->crushed_row = crushed ? count->crushed_row + 1 : 0;
   if (health->min_element_ratio < count->min_ratio) count->min_ratio = health->min_element_ratio;
+  if (health->volume_ratio < count->min_volume_ratio) count->min_volume_ratio = health->volume_ratio;
   count->inverted += health->inverted;
   bool stretched = health->max_strain > MAX_STRAIN;
   count->stretched += stretched;
@@ -63,6 +66,7 @@ static json_t *crushing_of(const recovery_count *count) {
   json_t *one = json_object();
   json_object_set_new(one, "frames", json_integer(count->crushed));
   json_object_set_new(one, "min_element_ratio", json_real((double)count->min_ratio));
+  json_object_set_new(one, "min_volume_ratio", json_real((double)count->min_volume_ratio));
   return one;
 }
 
@@ -115,19 +119,20 @@ void recovery_report_warn(const recovery_report *r, const sbf_asset *asset) {
     if (count->rigid > 0)
       fprintf(stderr,
           "sbfmt run: warning: soft body \"%s\" was reset to its rest shape %u times and moved as a rigid "
-          "body in %u frames: look for slivers with `sbfmt validate`, use more substeps, or keep its bones "
+          "body in %u frames: look for slivers with `sbfmt validate`, use more substeps or keep its bones "
           "out "
           "of the ground\n",
           name, count->total, count->rigid);
     if (count->crushed_row >= LASTING_FRAMES)
       fprintf(stderr,
-          "sbfmt run: warning: soft body \"%s\" ends crushed: an element had less than %g of its volume in "
-          "the last %u frames: move its bones more slowly, or use a stiffer material\n",
-          name, (double)CRUSHED_RATIO, count->crushed_row);
+          "sbfmt run: warning: soft body \"%s\" ends crushed: an element had less than %g or the body less "
+          "than %g of its volume in the last %u frames: move its bones more slowly, drop it from less high "
+          "or use a stiffer material\n",
+          name, (double)CRUSHED_RATIO, (double)CRUSHED_BODY_RATIO, count->crushed_row);
     if (count->stretched_row >= LASTING_FRAMES)
       fprintf(stderr,
           "sbfmt run: warning: soft body \"%s\" ends overstretched: an element had more than %g times its "
-          "length in the last %u frames: use smaller steps of the ground, a lower speed or a stiffer "
+          "length in the last %u frames: lower the steps of the ground or the speed, or use a stiffer "
           "material\n",
           name, (double)MAX_STRAIN + 1, count->stretched_row);
   }

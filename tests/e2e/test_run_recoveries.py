@@ -1,5 +1,6 @@
 """`sbfmt run` tells of bodies that lost their shape: put back into it and how often, inside out, overstretched, crushed."""
 
+import math
 import os
 
 from sbfmt_program import ROOT, ProgramTest, call, convert_once, main, write_bytes
@@ -54,6 +55,25 @@ class Recoveries(ProgramTest):
         self.assertEqual((report["valid"], report["recoveries"]), (False, 0))
         self.assertEqual(len(report["stretched"]), 2)
         self.assertEqual(max(one["max_strain"] for one in report["stretched"].values()), report["max_strain"])
+
+    def test_what_springs_fold_is_called_crushed(self):
+        """A ball of 7 mm strikes the ground at its speed of sound: its springs rest folded, and none is inside out."""
+        source, file = self.path("ball.obj"), self.path("ball.sbf")
+        rows, around, radius = 10, 16, 0.007
+        angles = [(math.pi * i / rows, 2 * math.pi * k / around) for i in range(1, rows) for k in range(around)]
+        points = [(0, 1, 0), *((math.sin(t) * math.cos(p), math.cos(t), math.sin(t) * math.sin(p)) for t, p in angles),
+                  (0, -1, 0)]
+        ring = [[2 + i * around + k % around for k in range(around + 1)] for i in range(rows - 1)]
+        faces = [(1, b, a) for a, b in zip(ring[0], ring[0][1:])] + [(len(points), a, b) for a, b in zip(ring[-1], ring[-1][1:])]
+        faces += [(a[k], a[k + 1], b[k + 1], b[k]) for a, b in zip(ring, ring[1:]) for k in range(around)]
+        lines = ["v %.9g %.9g %.9g\n" % tuple(radius * x for x in point) for point in points]
+        write_bytes(source, "".join(lines + ["f " + " ".join(map(str, face)) + "\n" for face in faces]).encode())
+        self.good("convert", source, "-o", file, "--material", "flesh", "--springs", "centroid")
+        arguments = ("run", file, "--free", "--raise", 1, "--fps", 20, "--seconds", 3)
+        report = self.json_of(*arguments)
+        self.assertLess(report["volume_ratio"], 0.5)
+        self.assertEqual(report["crushed"]["ball"]["min_volume_ratio"], report["volume_ratio_least"])
+        self.assertIn('soft body "ball" ends crushed', call(*arguments).err)
 
     def test_what_its_own_walk_strains_is_left_alone(self):
         """A calf of 7 m on stairs: the pins of its soft parts accelerate by more than gravity."""
