@@ -56,19 +56,17 @@ static bool parse_line(char *text, script_line *line) {
   return false;
 }
 
-/* Reads the next line of any length; drops comments after '#' and what is too long for a command, which
- * `whole` reports. */
+/* Reads the next line; drops comments after '#'. Stops early at what no command has: a zero byte, or more
+ * characters than a command needs, which `whole` reports. */
 static bool read_line(FILE *file, char *text, size_t size, bool *whole) {
   size_t length = 0;
   bool comment = false, any = false;
   *whole = true;
-  for (int c; (c = fgetc(file)) != EOF && (any = true) && c != '\n';) {
+  for (int c; *whole && (c = fgetc(file)) != EOF && (any = true) && c != '\n';) {
     comment |= c == '#';
     if (comment) continue;
-    if (length + 1 < size)
-      text[length++] = (char)c;
-    else
-      *whole = false;
+    *whole = c != 0 && length + 1 < size;
+    if (*whole) text[length++] = (char)c;
   }
   text[length] = 0;
   return any;
@@ -84,7 +82,7 @@ bool script_load(script *s, cli_call *call, const char *path, int *status) {
   char text[512];
   bool good = true, whole;
   for (unsigned number = 1; good && read_line(file, text, sizeof text, &whole); number++) {
-    if (text[strspn(text, " \t\r\n")] == 0) continue;
+    if (whole && text[strspn(text, " \t\r\n")] == 0) continue;
     script_line line = {.number = number}, *grown = realloc(s->lines, (s->count + 1) * sizeof *s->lines);
     if (grown) s->lines = grown;
     good = grown && whole && parse_line(text, &line) &&
@@ -96,6 +94,10 @@ bool script_load(script *s, cli_call *call, const char *path, int *status) {
     cli_wrong(call, "%s:%u: not a command `SECONDS COMMAND NUMBERS` in order of time, with numbers up to %g",
         path, number, MAX);
     *status = SBF_BAD_INPUT;
+  }
+  if (good && ferror(file)) {
+    *status = cli_wrong(call, "the script %s cannot be read: %s", path, strerror(errno));
+    good = false;
   }
   fclose(file);
   if (!good) script_free(s);

@@ -5,6 +5,7 @@ import os
 import re
 import stat
 import threading
+import unittest
 
 from motion_files import PointCache, read_poses, read_sections
 from sbfmt_program import ProgramTest, call, example, main, read_bytes, write_bytes
@@ -250,6 +251,16 @@ class Run(ProgramTest):
             message = self.fails(1, "run", self.file, "--script", script)
             self.assertIn(f"script.txt:{line}:", message, text)
         self.fails(2, "run", self.file, "--script", self.path("absent.txt"))
+        self.assertIn("cannot be read", self.fails(2, "run", self.file, "--script", self.folder))
+
+    def test_a_script_of_zero_bytes_is_refused(self):
+        for text, line in ((b"\0\0", 1), (b"0 reset\n \0\n", 2), (b"\0" * 5000 + b"\n0 reset\n", 1)):
+            script = write_bytes(self.path("script.txt"), text)
+            self.assertIn(f"script.txt:{line}:", self.fails(1, "run", self.file, "--script", script))
+
+    @unittest.skipUnless(os.path.exists("/dev/zero"), "no /dev/zero here")
+    def test_a_script_without_end_is_refused(self):
+        self.assertIn("/dev/zero:1:", self.fails(1, "run", self.file, "--script", "/dev/zero", timeout=20))
 
     def test_a_comment_may_be_long(self):
         long = self.run_script("0 drive 0.3 0.1 # " + "0 reset " * 200 + "\n0.1 drive 0 0\n")
