@@ -231,6 +231,40 @@ class RiggedInputs(ProgramTest):
         self.assertEqual(found, ["hand"] * 8 + ["fore"] * 8 + ["hand"] * 8)
         self.assertIn("16 from the names of objects or bones, 8 computed from the bones", said)
 
+    def test_polygons_with_points_of_their_own_become_one_body(self):
+        """As exporters write flat-shaded meshes. The two sides of a sheet, which also meet, stay separate."""
+        write_bones(self.path("arm.bvh"))
+        points, triangles = box((1.2, -0.2, -0.2), (1.8, 0.2, 0.2))
+        sheet = [(0.2, 0.3, 0), (0.8, 0.3, 0), (0.5, 0.3, 0.4)]
+        objects = {"hand": (sheet + sheet, [(0, 1, 2), (5, 4, 3)]), "fore": (points, triangles)}
+        whole, apart = obj_of(objects), variants.doubled(obj_of(objects), lambda face, corner: (id(face), corner))
+        self.assertEqual(len(apart.points), 6 + 36)
+        self.convert(whole, self.path("arm.bvh"))
+        self.assertEqual(self.meshes(), {"hand": 6, "fore": 8})
+        _, said = self.convert(apart, self.path("arm.bvh"))
+        self.assertEqual(self.meshes(), {"hand": 6, "fore": 8})
+        self.assertIn("42 points of the file became 14: polygons of an object that meet along an edge", said)
+
+    def test_points_far_from_all_others(self):
+        """One that no polygon uses is left out, and one of a polygon is named; neither takes forever."""
+        column = Column()
+        rig, points = column.glb.write(self.path("rig.glb")), obj_of(column.objects()).points
+        wanted = column.wanted["body"] + column.wanted["hat"]
+        unused, used, farther = (obj_of(column.objects()) for _ in range(3))
+        unused.points, unused.origins = points + [(500, 0, 0)], unused.origins + [[]]
+        found, said = self.convert(unused, rig)
+        self.assertEqual(found, wanted)
+        self.assertIn("1 vertices that no face uses are left out", said)
+        self.assertNotIn("RIG_OBJECT_APART", said)
+        used.points = points[:7] + [(500, 0, 0)] + points[8:]
+        _, said = self.convert(used, rig)
+        self.assertRegex(said, r"1 of the points of the object 'body' are farther .*: vertex 7 by 500 m; delete or move them")
+        self.assertNotIn("shells of the object", said)
+        farther.points = points[:7] + [(1e30, 0, 0)] + points[8:]
+        variants.write(farther, self.path("farther.obj"))
+        said = self.good("convert", self.path("farther.obj"), "--rig", rig, *SOURCE_PARTS, "-o", self.path("out.sbf"), timeout=60).err
+        self.assertIn("vertex 7 by 1e+30 m", said)
+
     def test_a_piece_beside_a_rigid_part_follows_its_bone_whole(self):
         """Two stiff tubes, one on the other; the lower one was made longer, and its end lies on the upper one's side."""
         low, high = tube(0, 1, 0.2), tube(1.01, 2, 0.2)

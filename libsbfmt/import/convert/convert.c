@@ -13,6 +13,7 @@
 #include "import/convert/convert_summary.h"
 #include "import/convert/convert_tets.h"
 #include "import/convert/guess_moduli.h"
+#include "import/convert/join_borders.h"
 #include "import/convert/propose_limits.h"
 #include "import/convert/propose_softness.h"
 #include "import/gait/locomotion.h"
@@ -131,7 +132,7 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
         "the file has no skeleton, so its objects become bodies without pins: add a skeleton with --rig");
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
-      sbfi_rig_input, sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials,
+      sbfi_rig_input, sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials, sbfi_join_borders,
       sbfi_convert_meshes, sbfi_measure_leaf_bones, sbfi_evaluate_gait, sbfi_report_lying, sbfi_face_ahead,
       sbfi_propose_gait, sbfi_report_other_skeletons, sbfi_stand_on_ground, sbfi_convert_joints,
       sbfi_convert_attachments, sbfi_propose_limits, sbfi_convert_clips, sbfi_propose_rest_pose,
