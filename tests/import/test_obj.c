@@ -58,8 +58,8 @@ END_TEST
 START_TEST(unused_vertices_stay_with_their_object)
 {
   sbfi_scene scene;
-  read_text(&scene, "o a\nv 9 9 9\nv 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\nf 2 3 5\n"
-                    "o b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 6 7 8\n");
+  read_text(&scene, "o a\nv .5 .5 .5\nv 0 0 0\nv 1 0 0\nv .5 .5 .5\nv 0 1 0\nf 2 3 5\n"
+                    "o b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv .5 .5 .5\nf 6 7 8\n");
   EXPECT_SOURCES(&scene.meshes[0], 0, 1, 2, 3, 4);
   EXPECT_SOURCES(&scene.meshes[1], 5, 6, 7, 8);
   ck_assert_uint_eq(scene.warning_count, 0);
@@ -71,10 +71,22 @@ END_TEST
 START_TEST(unused_vertices_go_with_those_that_follow)
 {
   sbfi_scene scene;
-  read_text(
-      &scene, "v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\nf 1 2 3\nv 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\ng b\nf 5 6 7\n");
+  read_text(&scene,
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\nf 1 2 3\nv .5 .5 .5\nv 0 0 0\nv 1 0 0\nv 0 1 0\ng b\nf 5 6 7\n");
   EXPECT_SOURCES(&scene.meshes[0], 0, 1, 2);
   EXPECT_SOURCES(&scene.meshes[1], 3, 4, 5, 6);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
+/* They would pass for the size of the character. */
+START_TEST(unused_vertices_apart_from_all_others_are_left_out_and_told)
+{
+  sbfi_scene scene;
+  read_text(&scene, "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 0 0\nv 1.5 0 0\nf 1 2 3\n");
+  EXPECT_SOURCES(&scene.meshes[0], 0, 1, 2, 4);
+  ck_assert_uint_eq(scene.warning_count, 1);
+  ck_assert_int_eq(scene.warnings[0].code, SBF_CODE_IMPORT_POINTS_LEFT_OUT);
   sbfi_scene_free(&scene);
 }
 END_TEST
@@ -363,6 +375,7 @@ static Suite *obj_suite(void) {
   tcase_add_test(tests, groups_divide_where_there_is_no_object);
   tcase_add_test(tests, unused_vertices_stay_with_their_object);
   tcase_add_test(tests, unused_vertices_go_with_those_that_follow);
+  tcase_add_test(tests, unused_vertices_apart_from_all_others_are_left_out_and_told);
   tcase_add_test(tests, vertices_of_nobody_are_left_out_and_told);
   tcase_add_test(tests, each_mesh_has_its_own_normals_and_uvs);
   tcase_add_test(tests, materials_come_from_the_library_beside_the_file);

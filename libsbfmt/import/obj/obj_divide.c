@@ -1,4 +1,5 @@
 /* Divides the content of an OBJ file into meshes by its objects and groups. */
+#include <math.h>
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -115,10 +116,47 @@ static void note_use(void *state, uint32_t mesh, uint32_t item) {
   u->item_meshes[u->users[item]++] = mesh;
 }
 
+/* An unused point is separated from the others if it is farther outside the box around the used ones than
+ * this fraction of the box's diagonal: it would pass for the size of the character. */
+static const double SEPARATION = 0.5;
+
+typedef struct box {
+  double low[3], high[3];
+} box;
+
+static void read_point(const division *d, uint32_t point, double at[3]) {
+  const sbf_vec3 p = ((const sbf_vec3 *)d->text->points.at)[point];
+  at[0] = (double)p.x, at[1] = (double)p.y, at[2] = (double)p.z;
+}
+
+/* Box that contains the used points and what is near them. */
+static box find_box(const division *d, uint32_t point_count, const usage *u) {
+  box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+  double squared = 0, at[3];
+  for (uint32_t p = 0; p < point_count; p++) {
+    if (!u->users[p]) continue;
+    read_point(d, p, at);
+    for (int k = 0; k < 3; k++) b.low[k] = fmin(b.low[k], at[k]), b.high[k] = fmax(b.high[k], at[k]);
+  }
+  for (int k = 0; k < 3; k++) squared += (b.high[k] - b.low[k]) * (b.high[k] - b.low[k]);
+  for (int k = 0; k < 3; k++) b.low[k] -= SEPARATION * sqrt(squared), b.high[k] += SEPARATION * sqrt(squared);
+  return b;
+}
+
+static bool is_separated(const division *d, const box *b, uint32_t point) {
+  double at[3];
+  read_point(d, point, at);
+  for (int k = 0; k < 3; k++)
+    if (at[k] < b->low[k] || at[k] > b->high[k]) return true;
+  return false;
+}
+
 /* Assigns a point without polygons to the mesh of the next used point of its block of v lines, else of the
- * previous one, else to the mesh whose lines surround it. Returns the number of points without a mesh. */
+ * previous one, else to the mesh whose lines surround it. Returns the number of points without a mesh, as
+ * those apart from all others. */
 static uint32_t adopt_unused(const division *d, uint32_t point_count, usage *u) {
   const sbfi_obj_block *blocks = d->text->blocks.at;
+  const box near = find_box(d, point_count, u);
   uint32_t left_out = 0;
   for (size_t b = 0; b < d->text->blocks.count; b++) {
     uint32_t first = blocks[b].first_point;
@@ -137,6 +175,7 @@ static uint32_t adopt_unused(const division *d, uint32_t point_count, usage *u) 
         continue;
       }
       if (!u->first[p]) u->first[p] = before ? before : (uint32_t)(around + 1);
+      if (is_separated(d, &near, p)) u->first[p] = 0;
       if (!u->first[p]) {
         left_out++;
         continue;
@@ -303,7 +342,9 @@ static bool divide(division *d) {
   scene->meshes = meshes;
   scene->node_count = scene->mesh_count = d->mesh_count;
   return !left_out || sbfi_scene_warn(scene, SBF_CODE_IMPORT_POINTS_LEFT_OUT, 0,
-                          "%u vertices that no face uses are left out", left_out);
+                          "%u vertices that no face uses are left out: they belong to no object, or lie "
+                          "apart from all others",
+                          left_out);
 }
 
 sbf_status sbfi_obj_divide(

@@ -39,7 +39,7 @@ static void find_bounds(sbfi_point_finder *finder, uint32_t count) {
 
 bool sbfi_point_finder_make(
     sbfi_point_finder *finder, const sbf_vec3 *points, uint32_t count, double within, sbfi_arena *arena) {
-  *finder = (sbfi_point_finder){.points = points, .slot_count = 16};
+  *finder = (sbfi_point_finder){.points = points, .point_count = count, .slot_count = 16};
   find_bounds(finder, count);
   sbfi_d3 sides = sbfi_d3_sub(finder->high, finder->low);
   double longest = fmax(sides.x, fmax(sides.y, sides.z));
@@ -70,6 +70,12 @@ static bool find_cells(const sbfi_point_finder *finder, sbfi_d3 position, double
   return true;
 }
 
+static double count_cells(const cell_range *cells) {
+  double count = 1;
+  for (int k = 0; k < 3; k++) count *= (double)(cells->high[k] - cells->low[k] + 1);
+  return count;
+}
+
 /* Different cells may share a slot. Visits only points of the cell itself, so that each point comes once. */
 static bool is_in_cell(const sbfi_point_finder *finder, uint32_t point, int64_t x, int64_t y, int64_t z) {
   sbfi_d3 from_low = sbfi_d3_sub(sbfi_d3_of(finder->points[point]), finder->low);
@@ -77,42 +83,71 @@ static bool is_in_cell(const sbfi_point_finder *finder, uint32_t point, int64_t 
          (int64_t)floor(from_low.z / finder->cell) == z;
 }
 
-uint32_t sbfi_point_nearest(
-    const sbfi_point_finder *finder, sbfi_d3 position, double within, double *distance) {
-  double min = within * within * (1 + 1e-12);
-  uint32_t nearest = UINT32_MAX;
+typedef struct query {
+  const sbfi_point_finder *finder;
+  sbfi_d3 position;
+  double max_squared; /* of distances; `visit` may lower it */
+  void (*visit)(struct query *q, uint32_t point, double squared);
+  void *user;
+  uint32_t nearest;
+} query;
+
+static void visit_cell(query *q, int64_t x, int64_t y, int64_t z) {
+  const sbfi_point_finder *finder = q->finder;
+  uint32_t slot = slot_of(finder, x, y, z);
+  for (uint32_t i = finder->starts[slot]; i < finder->starts[slot + 1]; i++) {
+    uint32_t point = finder->items[i];
+    double squared = squared_distance(&finder->points[point], q->position);
+    if (squared <= q->max_squared && is_in_cell(finder, point, x, y, z)) q->visit(q, point, squared);
+  }
+}
+
+/* Visits the points within the distance, each once. A query of more cells than points looks at all points
+ * instead. */
+static void run_query(query *q, double within) {
+  const sbfi_point_finder *finder = q->finder;
   cell_range cells;
-  if (distance) *distance = within;
-  if (!find_cells(finder, position, within * (1 + 1e-9), &cells)) return UINT32_MAX;
+  if (!find_cells(finder, q->position, within * (1 + 1e-9), &cells)) return;
+  if (count_cells(&cells) > finder->point_count) {
+    for (uint32_t point = 0; point < finder->point_count; point++) {
+      double squared = squared_distance(&finder->points[point], q->position);
+      if (squared <= q->max_squared) q->visit(q, point, squared);
+    }
+    return;
+  }
   for (int64_t z = cells.low[2]; z <= cells.high[2]; z++)
     for (int64_t y = cells.low[1]; y <= cells.high[1]; y++)
-      for (int64_t x = cells.low[0]; x <= cells.high[0]; x++) {
-        uint32_t slot = slot_of(finder, x, y, z);
-        for (uint32_t i = finder->starts[slot]; i < finder->starts[slot + 1]; i++) {
-          uint32_t point = finder->items[i];
-          double squared = squared_distance(&finder->points[point], position);
-          if (squared > min || (squared == min && point >= nearest)) continue;
-          min = squared;
-          nearest = point;
-        }
-      }
-  if (distance) *distance = sqrt(min);
-  return nearest;
+      for (int64_t x = cells.low[0]; x <= cells.high[0]; x++) visit_cell(q, x, y, z);
+}
+
+static void keep_nearest(query *q, uint32_t point, double squared) {
+  if (squared == q->max_squared && point >= q->nearest) return;
+  q->max_squared = squared;
+  q->nearest = point;
+}
+
+uint32_t sbfi_point_nearest(
+    const sbfi_point_finder *finder, sbfi_d3 position, double within, double *distance) {
+  query q = {finder, position, within * within * (1 + 1e-12), keep_nearest, NULL, UINT32_MAX};
+  run_query(&q, within);
+  if (distance) *distance = q.nearest == UINT32_MAX ? within : sqrt(q.max_squared);
+  return q.nearest;
+}
+
+typedef struct visitor {
+  void (*visit)(void *user, uint32_t point);
+  void *user;
+} visitor;
+
+static void pass_point(query *q, uint32_t point, double squared) {
+  const visitor *v = q->user;
+  (void)squared;
+  v->visit(v->user, point);
 }
 
 void sbfi_find_points_near(const sbfi_point_finder *finder, sbfi_d3 position, double within,
     void (*visit)(void *user, uint32_t point), void *user) {
-  cell_range cells;
-  if (!find_cells(finder, position, within * (1 + 1e-9), &cells)) return;
-  for (int64_t z = cells.low[2]; z <= cells.high[2]; z++)
-    for (int64_t y = cells.low[1]; y <= cells.high[1]; y++)
-      for (int64_t x = cells.low[0]; x <= cells.high[0]; x++) {
-        uint32_t slot = slot_of(finder, x, y, z);
-        for (uint32_t i = finder->starts[slot]; i < finder->starts[slot + 1]; i++) {
-          uint32_t point = finder->items[i];
-          if (squared_distance(&finder->points[point], position) <= within * within &&
-              is_in_cell(finder, point, x, y, z))
-            visit(user, point);
-        }
-      }
+  visitor v = {visit, user};
+  query q = {finder, position, within * within, pass_point, &v, UINT32_MAX};
+  run_query(&q, within);
 }

@@ -7,6 +7,7 @@
 
 typedef struct sbfi_point_finder {
   const sbf_vec3 *points;
+  uint32_t point_count;
   sbfi_d3 low, high; /* of the points */
   double cell;       /* edge length of a cell */
   uint32_t *starts;  /* (slot_count + 1) first index into `items` of each slot */
@@ -15,7 +16,7 @@ typedef struct sbfi_point_finder {
 } sbfi_point_finder;
 
 /* `points` must outlive the finder. `within` is the usual query distance: others are correct, but much
- * longer ones are slow. False if memory runs out. */
+ * longer ones look at all points. False if memory runs out. */
 bool sbfi_point_finder_make(
     sbfi_point_finder *finder, const sbf_vec3 *points, uint32_t count, double within, sbfi_arena *arena);
 

@@ -11,11 +11,15 @@
 enum { NAMED = 4 };
 
 /* As fractions of the rig's size: median distance of a piece from the rig's surface, or from its bones, at
- * which it is separated; distance beside a near piece; maximum size of a prop. */
-static const double FAR_FROM_SURFACE = 0.1, FAR_FROM_BONES = 0.2, MAX_GAP = 0.05, LARGE = 0.5;
+ * which it is separated; distance beside a near piece; maximum size of a prop; distance of a point that
+ * belongs to no body. */
+static const double FAR_FROM_SURFACE = 0.1, FAR_FROM_BONES = 0.2, MAX_GAP = 0.05, LARGE = 0.5, STRAY = 1;
+static const double UNBOUNDED = 1e30; /* m */
 
 typedef struct piece {
-  uint32_t points, far, number; /* counts; number within the object from 1, as in --shell */
+  uint32_t points, far; /* whose bones were guessed; those of them that are far from the rig */
+  uint32_t others;      /* points whose bones are known */
+  uint32_t number;      /* within the object from 1, as in --shell */
   double nearest;
   sbfi_d3 low, high;
   bool is_separated;
@@ -32,6 +36,7 @@ typedef struct separation_search {
   bool by_surface;
   double size, far_m;
   const uint32_t *pieces; /* (points) */
+  double *distances;      /* (points) from the rig, m; 0 if the bones are known */
   piece *all;             /* (points) valid at the first point of each piece */
 } separation_search;
 
@@ -47,7 +52,7 @@ static double distance_to_rig(const separation_search *a, sbfi_d3 p) {
   sbfi_surface_location near;
   double nearest = INFINITY;
   if (a->by_surface)
-    return sbfi_surface_nearest(&a->finder, p, NULL, 10 * a->size, &near) ? near.distance : INFINITY;
+    return sbfi_surface_nearest(&a->finder, p, NULL, UNBOUNDED, &near) ? near.distance : UNBOUNDED;
   for (uint32_t b = 0; b < a->r->c->asset->bones.count; b++)
     nearest = fmin(nearest, distance_to_bone(&a->r->c->asset->bones.at[b], p));
   return nearest;
@@ -66,7 +71,7 @@ static double size_of_bones(const sbf_bone_list bones) {
 static void add_point(separation_search *a, uint32_t point) {
   piece *p = &a->all[a->pieces[point]];
   sbfi_d3 at = sbfi_d3_of(a->moved->mesh.positions.at[point]);
-  double distance = distance_to_rig(a, at);
+  double distance = a->distances[point] = distance_to_rig(a, at);
   bool first = p->points++ == 0;
   p->low = first ? at : (sbfi_d3){fmin(p->low.x, at.x), fmin(p->low.y, at.y), fmin(p->low.z, at.z)};
   p->high = first ? at : (sbfi_d3){fmax(p->high.x, at.x), fmax(p->high.y, at.y), fmax(p->high.z, at.z)};
@@ -78,7 +83,7 @@ static void add_point(separation_search *a, uint32_t point) {
  * some is never far. */
 static bool is_far(const separation_search *a, const piece *p) {
   bool large = a->by_surface && length_of(p) > LARGE * a->size;
-  return 2 * p->far > p->points && (p->nearest > MAX_GAP * a->size || large);
+  return 2 * p->far > p->points + p->others && (p->nearest > MAX_GAP * a->size || large);
 }
 
 static double gap_between(const piece *a, const piece *b) {
@@ -158,6 +163,24 @@ static void report_object(const separation_search *a, uint32_t mesh) {
       count, pieces, a->r->names[mesh], a->r->rig.scene->file, nearest, names, points, to - from);
 }
 
+/* Reports points of near pieces that are far away, as a slip of the mouse leaves them. */
+static void report_stray_points(const separation_search *a, uint32_t mesh) {
+  uint32_t from = a->moved->mesh_starts[mesh], count = 0, farthest = from;
+  for (uint32_t i = from; i < a->moved->mesh_starts[mesh + 1]; i++) {
+    if (a->all[a->pieces[i]].is_separated || a->distances[i] <= STRAY * a->size) continue;
+    count++;
+    if (a->distances[i] > a->distances[farthest]) farthest = i;
+  }
+  if (count)
+    sbfi_convert_warn(a->r->c, SBF_CODE_RIG_OBJECT_APART,
+        "%u of the points of the object '%.60s' are farther from the rig of %s than its size of %.3g m: "
+        "vertex "
+        "%u by %.3g m; delete or move them in the input, because size, gait and soft parts follow from all "
+        "points",
+        count, a->r->names[mesh], a->r->rig.scene->file, a->size,
+        a->r->input.scene->meshes[mesh].point_sources[farthest - from], a->distances[farthest]);
+}
+
 /* Whether the bone of a point was guessed. */
 static bool is_guessed(const separation_search *a, uint32_t point) {
   sbfi_weight_source source = (sbfi_weight_source)a->r->sources[point];
@@ -174,13 +197,20 @@ bool sbfi_report_separated(const sbfi_rigging *r, const sbfi_scene_surface *move
   a.far_m = (a.by_surface ? FAR_FROM_SURFACE : FAR_FROM_BONES) * a.size;
   a.pieces = sbfi_surface_pieces(moved, &scratch);
   a.all = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *a.all);
-  bool good = a.pieces && a.all && number_pieces(&a, &scratch) &&
+  a.distances = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *a.distances);
+  bool good = a.pieces && a.all && a.distances && number_pieces(&a, &scratch) &&
               (!a.by_surface || sbfi_surface_finder_make(&a.finder, &r->rig, &scratch));
   for (uint32_t i = 0; good && a.size > 0 && i < count; i++)
-    if (is_guessed(&a, i)) add_point(&a, i);
+    if (is_guessed(&a, i))
+      add_point(&a, i);
+    else
+      a.all[a.pieces[i]].others++;
   if (good) good = find_separated(&a, &scratch);
   for (uint32_t m = 0; good && m < moved->scene->mesh_count; m++)
-    if (r->parent_nodes[m] == SBF_NONE && !r->separated[m]) report_object(&a, m);
+    if (r->parent_nodes[m] == SBF_NONE && !r->separated[m]) {
+      report_object(&a, m);
+      report_stray_points(&a, m);
+    }
   sbfi_arena_free(&scratch);
   return good;
 }
