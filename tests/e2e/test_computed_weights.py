@@ -4,11 +4,20 @@ import json
 import math
 import os
 
-from bundle_file import Bundle
+from bundle_file import Bundle, inverse, matrix_of, product
 from bvh_file import Bvh, write_bvh
 from rigged_weights import weights_by_vertex
+from skinned_glb import SkinnedGlb, box
 from skinned_glb import tube as tube_y
 from sbfmt_program import SOURCE_PARTS, ProgramTest, main
+
+def turn_from_y(direction):
+    """The quaternion that turns +Y to a direction other than -Y."""
+    length = math.hypot(*direction)
+    x, y, z = (d / length for d in direction)
+    scale = math.hypot(z, x, 1 + y)
+    return z / scale, 0, -x / scale, (1 + y) / scale
+
 
 BONES = (("upper", 0.0), ("fore", 1.0), ("hand", 2.0))
 
@@ -250,6 +259,29 @@ class ComputedWeights(ProgramTest):
         self.assertEqual([parents[side + "Foot"] for side in ("Left", "Right")], ["LeftLeg", "RightLeg"])
         self.assertEqual(parents["LeftKneeTarget"], "Root")
         self.assertEqual(self.json_of("info", self.path("person.sbf"))["gait"], {"kind": "walk", "legs": 2})
+
+    def test_feet_on_the_root_hang_on_the_limbs_that_point_at_them(self):
+        """A frog sits with its hind feet beside its fore legs. Some axes are turned, as importers do, those of the last bones
+        are not. It is no box, which is refused after its bones were joined."""
+        joints = {"Root": (None, (0, 0, 0)), "Body": ("Root", (0, 1.7, 0)), "Spare": ("Body", (0, 1.5, -0.2))}
+        for side, x in (("L", 1), ("R", -1)):
+            joints.update({f"ForeUpper.{side}": ("Body", (0.67 * x, 1.01, 0.54)), f"ForeLower.{side}": (f"ForeUpper.{side}", (1.07 * x, 0.36, 0.06)),
+                           f"HindUpper.{side}": ("Body", (1.06 * x, 0.32, -0.31)), f"HindLower.{side}": (f"HindUpper.{side}", (0.91 * x, 0.06, -1.4)),
+                           f"ForeFoot.{side}": ("Root", (1.07 * x, -0.05, 0.85)), f"HindFoot.{side}": ("Root", (1.33 * x, 0, -0.42))})
+        feet = {f"{limb}Lower.{side}": f"{limb}Foot.{side}" for limb in ("Fore", "Hind") for side in "LR"}
+        glb, nodes, worlds = SkinnedGlb(), {}, {None: matrix_of()}
+        for name, (parent, head) in joints.items():
+            axis = [b - a for a, b in zip(head, joints[feet[name]][1])] if name in feet else (1, 0, 0)
+            worlds[name] = matrix_of(head, turn_from_y(axis))
+            nodes[name] = glb.node(name, nodes.get(parent), product(inverse(worlds[parent]), worlds[name]))
+        glb.write(self.path("bones.glb"))
+        points, triangles = box((-1.5, -0.1, -1.5), (1.5, 1.8, 1))
+        with open(self.path("frog.obj"), "w", encoding="ascii") as stream:
+            stream.writelines(f"v {x} {y} {z}\n" for x, y, z in points)
+            stream.writelines("f {} {} {}\n".format(*(i + 1 for i in t)) for t in triangles)
+        said = self.fails(1, "convert", self.path("frog.obj"), "--rig", self.path("bones.glb"), "--verbose", "-o", self.path("frog.sbf"))
+        for tip, foot in feet.items():
+            self.assertIn(f"bone '{foot}' is at the end of '{tip}'", said)
 
     def test_objects_of_which_half_are_named_as_bones(self):
         """A body and a head are parts of a skin and no sections, where other objects are named as no bone."""

@@ -81,9 +81,12 @@ static bool ends_limb(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint3
          count_below(s, rig, (uint32_t)parent) == 1;
 }
 
+/* Factor on the distance of a loose bone at which the limb's last bone does not point. */
+static const double NOT_POINTED_AT = 4;
+
 /* Distance from the head of a limb's last bone to a loose bone that may continue it; INFINITY if it
- * cannot. If bones run along +Y the limb must point at the loose bone, otherwise the limb must continue
- * downwards to it. */
+ * cannot. The limb must point at the loose bone by its +Y, or, if not all bones run along +Y, continue
+ * downwards to it. Importers turn the axes of some bones, so a limb that points at one takes that. */
 static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t loose) {
   const sbfi_bone_draft *last = &s->bones[tip];
   int32_t old_parent = s->bones[loose].parent, limb = s->bones[last->parent].parent;
@@ -92,10 +95,13 @@ static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t
   sbfi_d3 before = sbfi_d3_sub(last->head, s->bones[last->parent].head);
   sbfi_d3 direction = sbfi_d3_normal(displacement);
   double length = sbfi_d3_length(displacement), length_before = sbfi_d3_length(before);
-  bool fits = s->along_y ? sbfi_d3_dot(direction, sbfi_d3_normal(last->y)) > SBFI_STRAIGHT
-                         : displacement.y < 0 && sbfi_d3_dot(direction, sbfi_d3_normal(before)) > AHEAD;
-  return fits && length >= SHORTEST_TIP * length_before && length <= LONGEST_TIP * length_before ? length
-                                                                                                 : INFINITY;
+  bool points = sbfi_d3_dot(direction, sbfi_d3_normal(last->y)) > SBFI_STRAIGHT;
+  bool continues =
+      !s->along_y && displacement.y < 0 && sbfi_d3_dot(direction, sbfi_d3_normal(before)) > AHEAD;
+  if ((!points && !continues) || length < SHORTEST_TIP * length_before ||
+      length > LONGEST_TIP * length_before)
+    return INFINITY;
+  return points ? length : NOT_POINTED_AT * length;
 }
 
 /* Pairs loose bones with the last bones of limbs where each is the nearest candidate of the other. */
