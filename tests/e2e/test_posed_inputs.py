@@ -113,9 +113,17 @@ class PosedInputs(ProgramTest):
         call, *_ = self.convert_bones("examples/calf/calf.glb", turns)
         said = self.fails(1, *call)
         self.assertRegex(said, r"not all limbs were found: after '.*' were rotated, \d+ % of the bones' length is inside; "
-                               r"outside are '.*' by .* m.*--weights compute.*IMPORT_RIG_OUTSIDE")
+                               r"outside are '.*' by .* m.*give both the same pose, or use --weights compute.*IMPORT_RIG_OUTSIDE")
+        self.assertNotIn("this character's rig", said)
         call, *_ = self.convert_bones("examples/calf/calf.glb", turns, lambda obj: obj, "--weights", "compute")
         self.assertIn("after its limbs were rotated", self.good(*call).err)
+
+    def test_bones_of_another_body_name_what_no_bone_is_near(self):
+        """Two legs and arms turned into a pup lie inside, and its head and trunk have no bones."""
+        original = Original(posed_inputs.path_of("examples/pup/pup.glb"), self.folder)
+        said = self.fails(1, "convert", original.obj_path, "--rig", posed_inputs.path_of("examples/yeti/yeti.glb"), "-o", self.path("out.sbf"))
+        self.assertRegex(said, r"another pose or body than the mesh.* few bones, but \d\d % of the mesh has none near; "
+                               r"use this character's rig, or use --weights compute \[IMPORT_RIG_OUTSIDE\]")
 
     def test_an_input_in_the_pose_of_the_rig_turns_nothing(self):
         original = Original(posed_inputs.path_of("examples/yeti/yeti.glb"), self.folder)

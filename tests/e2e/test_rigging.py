@@ -491,11 +491,12 @@ class FromFile(ProgramTest):
         bone = next(iter(self.calf.weights[0]))
         faults = {
             "vertex,bone,weight\n0,Nobody,1\n": "line 2|no bone of",
-            f"vertex,bone,weight\n0,{bone},1\n99999999,{bone},1\n": "no vertex 99999999",
+            f"vertex,bone,weight\n0,{bone},1\n99999999,{bone},1\n": "no vertex 99999999 in a polygon: they are counted from 0",
             f"vertex,bone,weight\n0,{bone},-1\n": "is not a weight",
             f"vertex,bone,weight\n0,{bone},nan\n": "is not a weight",
             f"vertex,bone,weight\nx,{bone},1\n": "is not a vertex number",
             "vertex,weight\n0,1\n": "there is no column 'bone'",
+            f"vertex;bone;weight\n0;{bone};1\n": "no column 'vertex': the first line must name vertex, bone and weight, separated by commas",
             "vertex,bone,weight\n": "no vertex has a weight",
             "": "the file is empty",
         }

@@ -92,27 +92,37 @@ static double inside_fraction(const search *s, const sbfi_matrix *m, double min)
   return s->lines.total > 0 ? sum / s->lines.total : 1;
 }
 
-static double distance_to_line(const sbfi_bone_line *line, sbfi_d3 p) {
+static double squared_distance(const sbfi_bone_line *line, sbfi_d3 p) {
   sbfi_d3 along = sbfi_d3_sub(line->to, line->from), displacement = sbfi_d3_sub(p, line->from);
-  double t = fmin(fmax(sbfi_d3_dot(displacement, along) / sbfi_d3_dot(along, along), 0), 1);
-  return sbfi_d3_length(sbfi_d3_sub(displacement, sbfi_d3_scale(along, t)));
+  double t = sbfi_d3_dot(displacement, along) / sbfi_d3_dot(along, along);
+  displacement = sbfi_d3_sub(displacement, sbfi_d3_scale(along, t > 0 ? t < 1 ? t : 1 : 0));
+  return sbfi_d3_dot(displacement, displacement);
 }
 
-/* Mean distance of the input's points to the nearest bone, as a fraction of its longest side. It
- * distinguishes the front of a body from its back, and a full skeleton from a small one inside the belly. */
-static double distance_to_bones(const search *s, const sbfi_matrix *m) {
+/* Distance to the nearest bone, m. */
+static double distance_to_nearest(const search *s, sbfi_d3 p) {
+  double nearest = INFINITY;
+  for (uint32_t k = 0; k < s->lines.count; k++) {
+    double squared = squared_distance(&s->lines.at[k], p);
+    if (squared < nearest) nearest = squared;
+  }
+  return sqrt(nearest);
+}
+
+/* The fraction of bones inside, less the mean distance of the input's points to the nearest bone as a
+ * fraction of its longest side. The distance distinguishes the front of a body from its back, and a full
+ * skeleton from a small one inside the belly. Stops once the score is below `min`. */
+static double score_of(const search *s, const sbfi_matrix *m, double fraction, double min) {
   const sbf_vec3_list points = s->r->input.mesh.positions;
-  double sum = 0, size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(m);
+  double sum = 0, score = fraction, size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(m);
   uint32_t samples = points.count < SCORE_SAMPLES ? points.count : SCORE_SAMPLES;
-  for (uint32_t i = 0; i < samples; i++) {
+  for (uint32_t i = 0; i < samples && score >= min; i++) {
     uint32_t at = (uint32_t)((double)points.count * fmod(0.5 + i * 0.6180339887498949, 1.0));
     sbfi_d3 p = sbfi_similarity_apply(m, sbfi_d3_of(points.at[at]));
-    double nearest = INFINITY;
-    for (uint32_t k = 0; k < s->lines.count; k++)
-      nearest = fmin(nearest, distance_to_line(&s->lines.at[k], p));
-    sum += fmin(nearest / size, 1);
+    sum += fmin(distance_to_nearest(s, p) / size, 1);
+    score = fraction - NEARNESS * (sum / samples);
   }
-  return samples ? sum / samples : 0;
+  return score;
 }
 
 /* May return any lower value for a score below `min`. */
@@ -120,7 +130,7 @@ static candidate evaluate(const search *s, const sbfi_matrix *m, double min) {
   candidate c = {*m, 0, -INFINITY};
   if (!sbfi_alignment_allowed(s->r, m)) return c;
   c.fraction = inside_fraction(s, m, min);
-  if (c.fraction >= min) c.score = c.fraction - NEARNESS * distance_to_bones(s, m);
+  if (c.fraction >= min) c.score = score_of(s, m, c.fraction, min);
   return c;
 }
 
@@ -363,10 +373,7 @@ static double uncovered_fraction(const search *s) {
   for (uint32_t i = 0; i < samples; i++) {
     uint32_t at = (uint32_t)((double)points.count * i / samples);
     sbfi_d3 p = sbfi_similarity_apply(&s->best.m, sbfi_d3_of(points.at[at]));
-    double nearest = INFINITY;
-    for (uint32_t k = 0; k < s->lines.count && nearest > THICK * size; k++)
-      nearest = fmin(nearest, distance_to_line(&s->lines.at[k], p));
-    far += nearest > THICK * size;
+    far += distance_to_nearest(s, p) > THICK * size;
   }
   return samples ? (double)far / samples : 0;
 }
@@ -418,7 +425,7 @@ static void report_rotated(const search *s, const sbfi_limb_alignment *found) {
 
 /* Truncates a list of names to fit into an error. */
 static void shorten_names(char *names) {
-  enum { MAX_LENGTH = 80 };
+  enum { MAX_LENGTH = 70 };
   char *last = names;
   if (strlen(names) <= MAX_LENGTH) return;
   for (char *at = names; at < names + MAX_LENGTH; at++)
@@ -431,8 +438,8 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
   sbfi_conversion *c = s->r->c;
   char outside[130] = "";
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(c);
-  if (!outside[0])
-    snprintf(outside, sizeof outside, "no bones, but %.0f %% of the mesh has none near",
+  if (!outside[0] || s->best.fraction >= MIN_ROTATED)
+    snprintf(outside, sizeof outside, "few bones, but %.0f %% of the mesh has none near",
         100 * uncovered_fraction(s));
   if (c->options->weights) {
     sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_MESH,
@@ -441,12 +448,14 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
         100 * s->best.fraction, outside);
     return SBF_OK;
   }
+  bool has_own_mesh = s->r->mean_gap > 0;
   if (!sbfi_show_misfit(s->r, &s->best.m)) return sbfi_convert_no_memory(c);
   shorten_names(found->names);
   return sbfi_diagnose(c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
-      "the rig has another pose than the mesh, and not all limbs were found: after %s were rotated, %.0f %% "
-      "of the bones' length is inside; outside are %s; give both the same pose, or use --weights compute",
-      found->names, 100 * s->best.fraction, outside);
+      "the rig has another pose%s than the mesh, and not all limbs were found: after %s were rotated, %.0f %% "
+      "of the bones' length is inside; outside are %s; %s, or use --weights compute",
+      has_own_mesh ? " or body" : "", found->names, 100 * s->best.fraction, outside,
+      has_own_mesh ? "use this character's rig" : "give both the same pose");
 }
 
 /* Matches a rig in another pose than the input limb by limb. The stated transform stays if it fits. */
@@ -501,7 +510,7 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
   if (good && s.lines.count) {
     s.best.fraction = inside_fraction(&s, &s.best.m, 0);
     for (uint32_t i = 0; i < ROTATIONS; i++) s.of_rotation[i].score = -INFINITY;
-    s.best.score = s.best.fraction - NEARNESS * distance_to_bones(&s, &s.best.m);
+    s.best.score = score_of(&s, &s.best.m, s.best.fraction, -INFINITY);
     bool matched = false;
     if (is_long(&s) || !is_stated) status = match_limbs(r, &s, true, &matched);
     if (status == SBF_OK && !matched && is_stated) {

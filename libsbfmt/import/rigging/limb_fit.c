@@ -44,7 +44,7 @@ static sbfi_d3 head_of(const sbfi_limb_fit *f, uint32_t bone) {
 static double squared_distance(const sbfi_bone_line *line, sbfi_d3 p) {
   sbfi_d3 along = sbfi_d3_sub(line->to, line->from), from = sbfi_d3_sub(p, line->from);
   double t = sbfi_d3_dot(from, along) / (line->length * line->length);
-  from = sbfi_d3_sub(from, sbfi_d3_scale(along, fmin(fmax(t, 0), 1)));
+  from = sbfi_d3_sub(from, sbfi_d3_scale(along, t > 0 ? t < 1 ? t : 1 : 0));
   return sbfi_d3_dot(from, from);
 }
 
@@ -92,25 +92,29 @@ static double whole_cost(const sbfi_limb_fit *f) {
   return sum;
 }
 
-/* Cost of the whole body with the current limb rotated about its joint. */
-static double rotation_cost(const sbfi_limb_fit *f, sbfi_d3 joint, const double rotation[4]) {
+/* Cost of the whole body with the current limb rotated about its joint, plus `angle_cost`. May return less
+ * once it is certain to reach `best`. */
+static double rotation_cost(
+    const sbfi_limb_fit *f, sbfi_d3 joint, const double rotation[4], double angle_cost, double best) {
   sbfi_matrix turn = sbfi_rotation_about(rotation, joint);
   sbfi_bone_line *lines = f->rotated_lines;
   uint32_t count = f->line_count;
   double sum = 0;
-  for (uint32_t k = 0; k < count; k++) {
+  for (uint32_t k = 0; k < count && sum + angle_cost < best; k++) {
     lines[k] = f->posed.at[f->line_indices[k]];
     lines[k].from = sbfi_similarity_apply(&turn, lines[k].from);
     lines[k].to = sbfi_similarity_apply(&turn, lines[k].to);
     sum += cost_of_line(f, &lines[k]);
   }
-  for (uint32_t i = 0; i < f->core.count; i++) {
+  for (uint32_t i = 0; i < f->core.count && sum + angle_cost < best; i++) {
     double nearest = f->others[i];
-    for (uint32_t k = 0; k < count; k++)
-      nearest = fmin(nearest, squared_distance(&lines[k], f->core.points[i].position));
+    for (uint32_t k = 0; k < count; k++) {
+      double squared = squared_distance(&lines[k], f->core.points[i].position);
+      if (squared < nearest) nearest = squared;
+    }
     sum += cost_of_distance(f, &f->core.points[i], sqrt(nearest));
   }
-  return sum;
+  return sum + angle_cost;
 }
 
 /* --- Limbs --------------------------------------------------------------------------------------------- */
@@ -186,7 +190,7 @@ static double find_rotation(const sbfi_limb_fit *f, sbfi_d3 joint, sbfi_d3 direc
     if (in_plane) to = sbfi_d3_normal((sbfi_d3){direction.x, to.y, to.z});
     if (sbfi_d3_dot(to, direction) < FARTHEST) continue;
     rotation_between(direction, to, rotation);
-    double cost = rotation_cost(f, joint, rotation) + cost_of_angle(fraction, rotation);
+    double cost = rotation_cost(f, joint, rotation, cost_of_angle(fraction, rotation), best);
     if (cost >= best) continue;
     best = cost;
     chosen = to;
@@ -201,7 +205,7 @@ static double find_rotation_of(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *d
   sbfi_d3 direction;
   if (!measure_limb(f, bone, length, &direction)) return INFINITY;
   measure_others(f);
-  *before = rotation_cost(f, head_of(f, bone), none);
+  *before = rotation_cost(f, head_of(f, bone), none, 0, INFINITY);
   bool in_plane = f->is_middle && f->is_middle[bone];
   if (in_plane) direction = sbfi_d3_normal((sbfi_d3){0, direction.y, direction.z});
   return find_rotation(
@@ -287,13 +291,16 @@ static double angle_of(const sbfi_limb_fit *f, uint32_t bone, const sbfi_matrix 
   return sqrt(fmin(fmax(2 - 2 * cosine, 0), 4));
 }
 
-/* Later joints of a limb stay straight if rotating them gains little. */
-static double cost_of_pose(const sbfi_limb_fit *f, uint32_t bone, double length, const double rotation[4]) {
+/* Later joints of a limb stay straight if rotating them gains little. As rotation_cost(), may return less
+ * once it is certain to reach `best`. */
+static double cost_of_pose(
+    const sbfi_limb_fit *f, uint32_t bone, double length, const double rotation[4], double best) {
   sbfi_matrix motion = sbfi_rotation_about(rotation, head_of(f, bone));
   motion = sbfi_matrix_multiply(&motion, &f->motions[bone]);
   double angle = angle_of(f, bone, &motion);
   double per_radian = PER_RADIAN2 * angle + (f->is_rotated[bone] ? 0 : PER_RADIAN_OF_LATER);
-  return rotation_cost(f, head_of(f, bone), rotation) + fraction_of(f, bone, length) * per_radian * angle;
+  double angle_cost = fraction_of(f, bone, length) * per_radian * angle;
+  return rotation_cost(f, head_of(f, bone), rotation, angle_cost, best);
 }
 
 static void descend_joint(sbfi_limb_fit *f, uint32_t bone, double step) {
@@ -302,11 +309,11 @@ static void descend_joint(sbfi_limb_fit *f, uint32_t bone, double step) {
   sbfi_d3 direction;
   if (!measure_limb(f, bone, &length, &direction)) return;
   measure_others(f);
-  double best = cost_of_pose(f, bone, length, none);
+  double best = cost_of_pose(f, bone, length, none, INFINITY);
   for (int k = 0; k < (f->is_middle && f->is_middle[bone] ? 2 : 6); k++) {
     double rotation[4] = {0, 0, 0, sqrt(1 - 0.25 * step * step)};
     rotation[k / 2] = (k % 2 ? -1 : 1) * 0.5 * step;
-    double cost = cost_of_pose(f, bone, length, rotation);
+    double cost = cost_of_pose(f, bone, length, rotation, best);
     if (cost >= best) continue;
     best = cost;
     turn(f, bone, rotation);

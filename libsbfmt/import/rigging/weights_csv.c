@@ -82,7 +82,9 @@ static sbf_status read_header(sbfi_weights_rows *to, sbfi_span line, int indices
   for (int k = 0; k < COLUMNS; k++)
     if (indices[k] < 0)
       return sbfi_weights_rows_fail(to, 1,
-          "there is no column '%s': the first line must name vertex, bone and weight", COLUMN_NAMES[k]);
+          "there is no column '%s': the first line must name vertex, bone and weight, "
+          "separated by commas",
+          COLUMN_NAMES[k]);
   return SBF_OK;
 }
 

@@ -41,7 +41,8 @@ static sbf_status apply_row(sbfi_rigging *r, sbfi_weights_rows *rows, const sbfi
   while (bone < bones->count && strcmp(bones->at[bone].name, row->bone) != 0) bone++;
   if (bone == bones->count) return unknown_bone(r, rows, row);
   if (row->vertex >= vertex_count || !points[row->vertex])
-    return sbfi_weights_rows_fail(rows, row->line, "%s has no vertex %u in a polygon: the last one is %u",
+    return sbfi_weights_rows_fail(rows, row->line,
+        "%s has no vertex %u in a polygon: they are counted from 0, and the last one is %u",
         r->input.scene->file, row->vertex, vertex_count - 1);
   uint32_t point = points[row->vertex] - 1;
   sbfi_influences_add(&r->weights[point], r->c->node_of_bone[bone], (double)row->weight);
