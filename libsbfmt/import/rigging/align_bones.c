@@ -452,7 +452,8 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
   if (!sbfi_show_misfit(s->r, &s->best.m)) return sbfi_convert_no_memory(c);
   shorten_names(found->names);
   return sbfi_diagnose(c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
-      "the rig has another pose%s than the mesh, and not all limbs were found: after %s were rotated, %.0f %% "
+      "the rig has another pose%s than the mesh, and not all limbs were found: after %s were rotated, %.0f "
+      "%% "
       "of the bones' length is inside; outside are %s; %s, or use --weights compute",
       has_own_mesh ? " or body" : "", found->names, 100 * s->best.fraction, outside,
       has_own_mesh ? "use this character's rig" : "give both the same pose");

@@ -1,6 +1,7 @@
 /* If a limb is far from the rig's, the nearest surface gives no direction. Among many directions chooses
  * the one in which the limb matches parts of the input that no other part of the rig matches. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "import/rigging/pose_fit.h"
 #include "import/rigging/similarity.h"
@@ -18,6 +19,7 @@ static const double MIN_UNMATCHED = 0.25;
  * input counts 1. */
 static const double GAIN = 0.15;
 static const double PER_RADIAN = 0.1; /* additional gain required per radian */
+static const double ROUNDING = 1e-9;  /* of distances, relative */
 
 typedef struct limb {
   sbfi_d3 joint, direction;
@@ -25,11 +27,17 @@ typedef struct limb {
   uint32_t count, all; /* number of samples of the limb; number of the rig's samples */
 } limb;
 
+typedef struct input_sample {
+  double along; /* coordinate on the longest axis of the input */
+  sbfi_d3 position, normal;
+  uint32_t number;
+} input_sample;
+
 typedef struct search {
   sbfi_pose_fit *f;
-  sbfi_d3 unmatched[SBFI_POSE_SAMPLES],
-      unmatched_normals[SBFI_POSE_SAMPLES]; /* samples of the input without a match */
-  uint32_t unmatched_count;
+  int axis;                                                              /* longest of the input */
+  input_sample samples[SBFI_POSE_SAMPLES], unmatched[SBFI_POSE_SAMPLES]; /* ascending along the axis */
+  uint32_t unmatched_count;                                              /* samples without a match */
   sbfi_d3 directions[DIRECTIONS];
 } search;
 
@@ -85,6 +93,45 @@ static double squared_distance(sbfi_d3 a, sbfi_d3 b) {
   return sbfi_d3_dot(d, d);
 }
 
+static double along(const search *s, sbfi_d3 p) {
+  return s->axis == 0 ? p.x : s->axis == 1 ? p.y : p.z;
+}
+
+/* First sample that is not farther back than `from` along the axis. */
+static uint32_t first_sample(const input_sample *samples, uint32_t count, double from) {
+  uint32_t low = 0, high = count;
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (samples[middle].along < from)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/* Squared distance from a point to the nearest sample that faces alike, at most `cap` squared. */
+static double squared_gap(const search *s, sbfi_d3 p, sbfi_d3 normal, double cap) {
+  double at = along(s, p), reach = cap * (1 + ROUNDING), nearest = cap * cap;
+  for (uint32_t i = first_sample(s->samples, SBFI_POSE_SAMPLES, at - reach);
+       i < SBFI_POSE_SAMPLES && s->samples[i].along <= at + reach; i++) {
+    double squared = squared_distance(s->samples[i].position, p);
+    if (squared < nearest && sbfi_d3_dot(s->samples[i].normal, normal) > 0.5) nearest = squared;
+  }
+  return nearest;
+}
+
+/* Lowers squared distances of unmatched samples, by their numbers, to that of a point that faces alike. */
+static void cover(const search *s, sbfi_d3 p, sbfi_d3 normal, double cap, double *nearest) {
+  double at = along(s, p), reach = cap * (1 + ROUNDING);
+  for (uint32_t i = first_sample(s->unmatched, s->unmatched_count, at - reach);
+       i < s->unmatched_count && s->unmatched[i].along <= at + reach; i++) {
+    const input_sample *of = &s->unmatched[i];
+    double squared = squared_distance(of->position, p);
+    if (squared < nearest[of->number] && sbfi_d3_dot(of->normal, normal) > 0.5) nearest[of->number] = squared;
+  }
+}
+
 /* Score of a limb: fraction that matches the input, plus the newly covered amount relative to the limb. */
 static double evaluate(const search *s, const limb *l, const double rotation[4]) {
   const sbfi_pose_fit *f = s->f;
@@ -93,17 +140,8 @@ static double evaluate(const search *s, const limb *l, const double rotation[4])
   for (uint32_t k = 0; k < l->count; k++) {
     sbfi_d3 p = sbfi_d3_add(l->joint, rotated(rotation, l->positions[k])),
             n = rotated(rotation, l->normals[k]);
-    double nearest = cap * cap;
-    for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
-      double squared = squared_distance(f->input_samples[i].position, p);
-      if (squared < nearest && sbfi_d3_dot(f->input_samples[i].normal, n) > 0.5) nearest = squared;
-    }
-    for (uint32_t i = 0; i < s->unmatched_count; i++) {
-      double squared = squared_distance(s->unmatched[i], p);
-      if (squared < nearest_unmatched[i] && sbfi_d3_dot(s->unmatched_normals[i], n) > 0.5)
-        nearest_unmatched[i] = squared;
-    }
-    lies += 1 - sqrt(nearest) / cap;
+    lies += 1 - sqrt(squared_gap(s, p, n, cap)) / cap;
+    cover(s, p, n, cap, nearest_unmatched);
   }
   for (uint32_t i = 0; i < s->unmatched_count; i++) covers += 1 - sqrt(nearest_unmatched[i]) / cap;
   return lies / l->count + fmin(covers / l->all, 1);
@@ -114,15 +152,27 @@ static void rotation_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
       (const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
 
-static void find_unmatched(search *s) {
+static int compare_along(const void *a, const void *b) {
+  const input_sample *x = a, *y = b;
+  if (x->along != y->along) return x->along < y->along ? -1 : 1;
+  return (x->number > y->number) - (x->number < y->number);
+}
+
+static void sort_samples(search *s) {
   const sbfi_pose_fit *f = s->f;
+  sbfi_d3 sides = sbfi_d3_sub(sbfi_d3_of(f->input.high), sbfi_d3_of(f->input.low));
+  s->axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
   s->unmatched_count = 0;
   for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
     const sbfi_surface_sample *at = &f->input_samples[i];
+    s->samples[i] = (input_sample){along(s, at->position), at->position, at->normal, i};
     if (at->gap <= SBFI_ON_SURFACE * f->r->rig.size) continue;
-    s->unmatched[s->unmatched_count] = at->position;
-    s->unmatched_normals[s->unmatched_count++] = at->normal;
+    s->unmatched[s->unmatched_count] = s->samples[i];
+    s->unmatched[s->unmatched_count].number = s->unmatched_count;
+    s->unmatched_count++;
   }
+  qsort(s->samples, SBFI_POSE_SAMPLES, sizeof *s->samples, compare_along);
+  qsort(s->unmatched, s->unmatched_count, sizeof *s->unmatched, compare_along);
 }
 
 static bool find_rotation(const search *s, const limb *l, double best_rotation[4]) {
@@ -153,7 +203,7 @@ bool sbfi_pose_search_limbs(sbfi_pose_fit *f) {
   for (uint32_t b = 0; b < f->bone_count; b++) {
     double rotation[4];
     if (f->bones[b].parent == SBF_NONE || !measure_limb(s, b, l)) continue;
-    find_unmatched(s);
+    sort_samples(s);
     if (!find_rotation(s, l, rotation)) continue;
     sbfi_pose_fit_rotate(f, b, rotation);
     if (!sbfi_pose_fit_update(f)) return false;
