@@ -439,8 +439,8 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
   char outside[130] = "";
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(c);
   if (!outside[0] || s->best.fraction >= MIN_ROTATED)
-    snprintf(outside, sizeof outside, "few bones, but %.0f %% of the mesh has none near",
-        100 * uncovered_fraction(s));
+    snprintf(outside, sizeof outside, "%s bones, but %.0f %% of the mesh has none near",
+        outside[0] ? "few" : "no", 100 * uncovered_fraction(s));
   if (c->options->weights) {
     sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_MESH,
         "after its limbs were rotated, %.0f %% of the length of the rig's bones is inside the mesh; outside "
