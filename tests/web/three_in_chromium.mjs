@@ -21,11 +21,21 @@ const place = () => tab.evaluate(() => {
   return { across: 2 * sum / count / width - 1, share: count / width / height };
 });
 const before = await place();
-const hash = await tab.evaluate(() => stage.walk(120));
+const sbfz = await tab.evaluate(() => stage.walk(120));
 await shoot('three-walked');
 const after = await place();
 expect(before.share > 0.02 && before.share < 0.6, `the character covers ${before.share} of the picture`);
 expect(Math.abs(after.share / before.share - 1) < 0.4, `it covered ${before.share} of the picture, then ${after.share}`);
 expect(Math.abs(after.across - before.across) > 0.1, `it stays in the picture at ${before.across}, ${after.across}`);
+const hashes = { sbfz };
+for (const form of ['glb', 'gltf']) {
+  const loaded = await tab.evaluate((file) => stage.load(file), `lizard.${form}`);
+  await shoot(`three-${form}`);
+  hashes[form] = loaded.hash;
+  expect(loaded.still.length > 0 && !loaded.still.includes(true), `of .${form}, still meshes are visible: ${loaded.still}`);
+  expect(loaded.materials, `of .${form}, a mesh lacks the file's materials`);
+}
+const plain = await tab.evaluate(() => stage.load('plain.glb').then(() => 'a character', (error) => error.message));
+expect(/softCharacter|undefined/.test(plain), `a .glb without soft bodies gave ${plain}`);
 await close();
-console.log(JSON.stringify({ hash, faults }));
+console.log(JSON.stringify({ ...hashes, faults }));

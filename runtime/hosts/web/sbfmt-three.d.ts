@@ -1,5 +1,5 @@
 import { Group, Material } from 'three';
-import type { Character } from './sbfmt.js';
+import type { Character, CharacterOptions, Sbfmt, World } from './sbfmt.js';
 
 export interface SoftCharacterOptions {
   /** Of the meshes, 0 the full ones; where there are fewer, the last. */
@@ -16,4 +16,23 @@ export class SoftCharacter extends Group {
   update(): void;
   /** Lets go of geometry and of the file's materials; the character is freed by itself. */
   dispose(): void;
+}
+
+export interface SoftBodyPluginOptions {
+  /** What load() of the package gave. */
+  sbfmt: Sbfmt;
+  /** The character is added to it; the program steps it. */
+  world: World;
+  /** As in World.add. */
+  character?: CharacterOptions;
+  /** As in SoftCharacterOptions. */
+  renderLevel?: number;
+}
+
+/** Plugin of GLTFLoader: a .glb with SBF_soft_body gives a result with `softCharacter`, which is part of its scene.
+ * Call softCharacter.update() after each step of the world. The still meshes are made invisible. */
+export class SoftBodyPlugin {
+  constructor(parser: object, options: SoftBodyPluginOptions);
+  readonly name: string;
+  afterRoot(result: { scene: Group; softCharacter?: SoftCharacter }): Promise<void>;
 }

@@ -56,6 +56,50 @@ export class SoftCharacter extends THREE.Group {
   }
 }
 
+const EXTENSION = 'SBF_soft_body';
+
+/**
+ * Plugin of three.js' GLTFLoader: a character in a file with SBF_soft_body comes alive.
+ *   loader.register((parser) => new SoftBodyPlugin(parser, { sbfmt, world }));
+ * The result then has `softCharacter`, a SoftCharacter that is part of its scene and takes the place of the still meshes.
+ */
+export class SoftBodyPlugin {
+  constructor(parser, { sbfmt, world, character, renderLevel = 0 }) {
+    this.name = EXTENSION;
+    Object.assign(this, { parser, sbfmt, world, options: character, renderLevel });
+  }
+
+  /** Called by the loader when all else of the file is loaded. */
+  async afterRoot(gltf) {
+    const { parser } = this;
+    if (!parser.json.extensions?.[EXTENSION]) return;
+    const asset = this.sbfmt.asset(await binaryOf(parser));
+    const character = this.world.add(asset.model(), this.options);
+    const materials = await parser.getDependencies('material'); // with all their textures
+    const shown = new SoftCharacter(character, { renderLevel: this.renderLevel,
+      materials: materials.length > 0 && materials.length === asset.materials.length ? materials : undefined });
+    gltf.scene.traverse((node) => { if (node.isMesh) node.visible = false; });
+    gltf.scene.add(shown);
+    gltf.softCharacter = shown;
+  }
+}
+
+/** The file as one .glb, as the runtime reads it. The loader keeps its two chunks; a .gltf has its buffer beside it. */
+async function binaryOf(parser) {
+  const chunks = parser.extensions.KHR_binary_glTF, { buffers = [] } = parser.json;
+  if (buffers.length > 1) throw new Error(`${EXTENSION}: the file has ${buffers.length} buffers; pack it as one .glb`);
+  const body = chunks?.body ?? (buffers.length ? await parser.getDependency('buffer', 0) : new ArrayBuffer(0));
+  const content = chunks?.content ?? JSON.stringify({ ...parser.json, buffers: [{ byteLength: body.byteLength }] });
+  const text = new TextEncoder().encode(content), padded = (length) => (length + 3) & ~3;
+  const textSize = padded(text.length), bodySize = padded(body.byteLength), all = new Uint8Array(28 + textSize + bodySize);
+  const view = new DataView(all.buffer), put = (at, ...words) => words.forEach((word, i) => view.setUint32(at + 4 * i, word, true));
+  put(0, 0x46546c67, 2, all.length, textSize, 0x4e4f534a); // "glTF", its version; "JSON"
+  all.fill(0x20, 20, 20 + textSize).set(text, 20);
+  put(20 + textSize, bodySize, 0x004e4942); // "BIN"
+  all.set(new Uint8Array(body), 28 + textSize);
+  return all;
+}
+
 /** A material of the file; its image, where it is embedded, is loaded where the program runs in a page. */
 function materialOf(asset, from) {
   const material = new THREE.MeshStandardMaterial({
