@@ -81,6 +81,7 @@ def main():
     listed = web_files.run("tar", "-tzf", tarball).split()
     expected = {"package/" + name for name in ("package.json", "README.md", "LICENSE", "sbfmt.js", "sbfmt.d.ts", "sbfmt.wasm",
                                                "sbfmt-three.js", "sbfmt-three.d.ts",
+                                               "sbfmt-gltf-transform.js", "sbfmt-gltf-transform.d.ts",
                                                *(f"modules/{name}" for name in os.listdir(os.path.join(web_files.HOST, "modules"))))}
     if set(listed) != expected:
         sys.exit(f"the package holds {sorted(listed)}")
