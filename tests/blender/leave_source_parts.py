@@ -25,6 +25,7 @@ class SourceParts(fixtures.SceneTest):
         told = [one.message for one in bpy.context.scene.soft_body_format.findings]
         self.assertTrue(any("the compiled library is not there for " in one for one in told))
         self.assertIn("sbfmt build", self.refuse("out.sbfz"))
+        self.assertIn("-o FILE.glb", self.refuse("out.glb"))
 
     def test_what_was_exported_comes_back(self):
         """Import too, in plain Python."""

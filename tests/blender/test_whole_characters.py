@@ -19,12 +19,15 @@ class Characters(fixtures.RoundTripTest):
         path = self.path(f"{name}.sbf")
         self.assertEqual(bpy.ops.export_scene.soft_body_format(filepath=path, textures="EMBED"), {"FINISHED"})
         self.assertEqual(bpy.ops.export_scene.soft_body_format(filepath=f"{path}z", textures="EMBED"), {"FINISHED"})
-        with sbfmt.load(path) as text, sbfmt.load(f"{path}z") as packed:
+        gltf = self.path(f"{name}.glb")
+        self.assertEqual(bpy.ops.export_scene.soft_body_format(filepath=gltf), {"FINISHED"})
+        with sbfmt.load(path) as text, sbfmt.load(f"{path}z") as packed, sbfmt.load(gltf) as shown:
             found = text.validate()
             self.assertEqual([one.message for one in found.findings if one.severity == "error"], [])
             self.assertIsNone(text.equals(packed))
+            self.assertIsNone(text.equals(shown))
             document = from_xml(text.to_xml())
-        for source, ending in ((path, ".sbf"), (f"{path}z", ".sbfz")):
+        for source, ending in ((path, ".sbf"), (f"{path}z", ".sbfz"), (gltf, ".glb")):
             fixtures.fresh_scene()
             self.comes_back_equal(source, ending)
         return document

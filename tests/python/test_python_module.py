@@ -39,10 +39,11 @@ class Calls(ModuleTest):
         source = sbfmt.convert(LIZARD, rig=RIG)
         built = source.build()
         self.assertTrue(built.validate().valid)
-        for name, options in (("a.sbf", {}), ("a.sbfz", {}), ("b.sbfz", {"store": True})):
+        for name, options in (("a.sbf", {}), ("a.sbfz", {}), ("b.sbfz", {"store": True}), ("a.glb", {}), ("b.glb", {"store": True})):
             built.save(self.path(name), **options)
             self.assertIsNone(sbfmt.load(self.path(name)).equals(built))
-        self.assertGreater(os.path.getsize(self.path("b.sbfz")), os.path.getsize(self.path("a.sbfz")))
+        for form in ("sbfz", "glb"):
+            self.assertGreater(os.path.getsize(self.path(f"b.{form}")), os.path.getsize(self.path(f"a.{form}")))
         self.assertIn("/sbf/", source.equals(built))
         with open(self.path("a.sbf"), "rb") as stream:
             self.assertEqual(stream.read(), built.to_xml())

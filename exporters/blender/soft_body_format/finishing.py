@@ -84,9 +84,10 @@ def check(asset, folder, findings, locator):
 
 
 def without_library(document, path, findings):
-    if path.endswith(".sbfz"):
-        findings.error(f"packed files need the compiled library. It {sbfmt.library_fault()}. Or export as .sbf, "
-                       "then run: sbfmt build FILE.sbf -o FILE.sbfz")
+    ending = os.path.splitext(path)[1]
+    if ending in (".sbfz", ".glb"):
+        findings.error(f"{ending} files need the compiled library. It {sbfmt.library_fault()}. Or export as .sbf, "
+                       f"then run: sbfmt build FILE.sbf -o FILE{ending}")
         return False
     save_whole(path, to_xml(document))
     name = os.path.basename(path)

@@ -55,8 +55,14 @@ class Asset:
         return self._pointer
 
     def save(self, path, store=False, level=0):
-        """Writes the file, packed where the name ends in .sbfz; a failure leaves the old one whole."""
+        """Writes the file: .sbf, .sbfz, or .glb, which any viewer of glTF shows. A failure leaves the old one whole. `store`: without
+        compression; `level` 1 to 9 of zlib, 0: 6. A .glb embeds images that lie beside it."""
         error = DiagnosticStruct()
+        if path_bytes(path).endswith(b".glb"):
+            options = ExportOptions(struct_size=ctypes.sizeof(ExportOptions), folder=os.path.dirname(path_bytes(path)) or b".",
+                                    soft_bodies=True, store=store, compression=level)
+            check(library().sbf_export(self.pointer, path_bytes(path), ctypes.byref(options), ctypes.byref(error)), error)
+            return
         options = SaveOptions(ctypes.sizeof(SaveOptions), store, level)
         check(library().sbf_save_file(self.pointer, path_bytes(path), ctypes.byref(options), ctypes.byref(error)), error)
 
@@ -138,12 +144,12 @@ class Asset:
 
 
 def load(path, check_crc=True, extensions=(), mendable=False):
-    """Reads an .sbf or .sbfz file; `extensions` names those that the caller understands. With `mendable` what `fix` may mend is let
+    """Reads an .sbf, .sbfz or .glb file; `extensions` names those that the caller understands. With `mendable` what `fix` may mend is let
     pass; nothing but `fix` may then be asked of the asset."""
     names = (ctypes.c_char_p * len(extensions))(*(name.encode() for name in extensions))
     options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), check_crc=check_crc, extension_count=len(extensions),
                           extensions=ctypes.cast(names, ctypes.POINTER(ctypes.c_char_p)), copy_file=True,
-                          mendable=mendable)
+                          mendable=mendable, with_images=path_bytes(path).endswith(b".glb"))
     loaded, error = ctypes.c_void_p(), DiagnosticStruct()
     check(library().sbf_load_file(path_bytes(path), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
     return Asset(loaded.value)

@@ -24,7 +24,7 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
 
     filename_ext = ".sbf"
     check_extension = False
-    filter_glob: StringProperty(default="*.sbf;*.sbfz", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.sbf;*.sbfz;*.glb", options={"HIDDEN"})
     selected_only: BoolProperty(name="Selected Objects Only", description="Leave out what is not selected", default=False)
     collection: StringProperty(name="Collection", description="Only the objects of this collection; empty: all", default="")
     apply_modifiers: BoolProperty(
@@ -33,13 +33,14 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
     textures: EnumProperty(
         name="Textures", default="COPY",
         items=(("COPY", "Copy", "Copy image files into a folder `textures` beside the file"),
-               ("EMBED", "Embed", "Put the images into the file")))
+               ("EMBED", "Embed", "Put the images into the file; a .glb always has them")))
     build: BoolProperty(
         name="Build", default=True,
         description="Make sections, springs, lattices and embeddings too, so that the file is ready to run")
 
     def check(self, _context):
-        path = bpy.path.ensure_ext(os.path.splitext(self.filepath)[0], ".sbfz" if self.filepath.endswith(".sbfz") else ".sbf")
+        name, ending = os.path.splitext(self.filepath)
+        path = bpy.path.ensure_ext(name, ending if ending in (".sbfz", ".glb") else ".sbf")
         changed, self.filepath = path != self.filepath, path
         return changed
 
@@ -62,7 +63,8 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
         if refused:
             self.report({"ERROR"}, refused)
             return {"CANCELLED"}
-        whole = write_whole(context, Options(self.selected_only, self.collection, self.apply_modifiers, self.textures), findings)
+        textures = "EMBED" if self.filepath.endswith(".glb") else self.textures
+        whole = write_whole(context, Options(self.selected_only, self.collection, self.apply_modifiers, textures), findings)
         arguments = build_arguments(context.scene, whole.writer.space.unit_m) if self.build and whole.changed else None
         written = not findings.errors and finish(whole.document, self.filepath, arguments, findings, whole.locator,
                                                  whole.writer.materials.files, context.scene.soft_body_format.mends_files)
@@ -75,7 +77,7 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
 
 
 def menu(self, _context):
-    self.layout.operator(EXPORT_SCENE_OT_soft_body_format.bl_idname, text="Soft body format (.sbf, .sbfz)")
+    self.layout.operator(EXPORT_SCENE_OT_soft_body_format.bl_idname, text="Soft body format (.sbf, .sbfz, .glb)")
 
 
 def register():

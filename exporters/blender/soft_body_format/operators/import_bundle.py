@@ -19,8 +19,8 @@ def read_document(path):
     if has_library():
         with sbfmt.load(path) as asset:
             return from_xml(asset.to_xml())
-    if path.endswith(".sbfz"):
-        raise ValueError(f"packed files need the compiled library. It {sbfmt.library_fault()}. Or run sbfmt unpack "
+    if path.endswith((".sbfz", ".glb")):
+        raise ValueError(f"{os.path.splitext(path)[1]} files need the compiled library. It {sbfmt.library_fault()}. Or run sbfmt unpack "
                          f"{os.path.basename(path)} -o FILE.sbf, and import that")
     with open(path, "rb") as file:
         return from_xml(file.read())
@@ -34,7 +34,7 @@ class IMPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ImportHelper):
     bl_options = {"UNDO"}
 
     filename_ext = ".sbf"
-    filter_glob: StringProperty(default="*.sbf;*.sbfz", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.sbf;*.sbfz;*.glb", options={"HIDDEN"})
 
     @told
     def execute(self, context):
@@ -56,7 +56,7 @@ class IMPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ImportHelper):
 
 
 def menu(self, _context):
-    self.layout.operator(IMPORT_SCENE_OT_soft_body_format.bl_idname, text="Soft body format (.sbf, .sbfz)")
+    self.layout.operator(IMPORT_SCENE_OT_soft_body_format.bl_idname, text="Soft body format (.sbf, .sbfz, .glb)")
 
 
 def register():
