@@ -10,6 +10,10 @@ func _initialize() -> void:
 	check(asset is SoftAsset, "res://lizard.sbf is %s" % asset)
 	if not asset is SoftAsset:
 		return finish()
+	var walker = load("res://walker.glb")
+	var scene = load("res://scene.glb")
+	check(walker is SoftAsset and walker.data == asset.data, "res://walker.glb is %s" % walker)
+	check(scene is PackedScene, "res://scene.glb is %s, no scene as any other .glb" % scene)
 	jelly = add_character("res://jelly.sbf", Vector3(3, 0, 0))
 	character = add_character("res://lizard.sbf")
 	character.ground = SoftCharacter3D.GROUND_FLAT

@@ -240,8 +240,22 @@ ground = 1
 """
 
 
+# What Import As of the Import dock writes.
+CHOSEN = """[remap]
+
+importer="sbfmt.glb"
+type="SoftAsset"
+
+[deps]
+
+source_file="res://walker.glb"
+
+[params]
+"""
+
+
 def imported(godot, program):
-    """A .sbf in the project's folder, imported by the editor, changed, and broken."""
+    """A .sbf and a .glb in the project's folder, imported by the editor, changed, and broken."""
     godot.set_engine("Jolt Physics", PLUGINS.format('"res://addons/sbfmt/plugin.cfg"'))
     godot.provide_program()
     text = os.path.join(godot.folder, "lizard.sbf")
@@ -254,6 +268,9 @@ def imported(godot, program):
         states.add(told["state_hash"])
         subprocess.run([program, "unpack", os.path.join(godot.folder, name + ".sbfz"), "-o", text], check=True, capture_output=True)
         os.remove(os.path.join(godot.folder, name + ".sbfz"))
+        for scene in ("walker.glb", "scene.glb"):
+            subprocess.run([program, "pack", text, "-o", os.path.join(godot.folder, scene)], check=True, capture_output=True)
+        godot.write("walker.glb.import", CHOSEN)
         passed = godot.is_good(godot.run("--headless", "--import")) and godot.passes("imported", told["state_hash"]) and passed
     if len(states) != 2:
         print("FAILED: the stiffer lizard is no other")

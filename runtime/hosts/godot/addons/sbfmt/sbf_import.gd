@@ -81,7 +81,7 @@ func run(words: PackedStringArray, source: String) -> Error:
 func _import(source: String, save_path: String, options: Dictionary, _variants: Array[String], _made: Array[String]) -> Error:
 	var from := ProjectSettings.globalize_path(source)
 	var to := ProjectSettings.globalize_path(save_path)
-	if options.build:
+	if options.get("build", false):
 		var built := to + ".built.sbf"
 		var status := run(["build", from, "-o", built], source)
 		if status == OK:
