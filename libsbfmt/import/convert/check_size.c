@@ -89,8 +89,7 @@ static void check_distance(sbfi_conversion *c, const char *name, const sbf_vec3_
   if (!(step > MAX_ROUNDING * r.extent) || r.extent == 0) return;
   sbfi_convert_warn(c, SBF_CODE_IMPORT_FAR,
       "object '%s' lies %.4g m from the origin, where single precision has steps of %.2g m, %.2g %% of its "
-      "size "
-      "of %.4g m: move it to the origin in its program",
+      "size of %.4g m: move it to the origin in its program",
       name, distance, step, 100 * step / r.extent, r.extent);
 }
 
