@@ -47,7 +47,8 @@ static bool reserve(run_state *r) {
   r->surface = calloc(r->surface_count + 1, sizeof *r->surface);
   r->sample =
       calloc((r->skin_count > r->surface_count ? r->skin_count : r->surface_count) + 1, sizeof *r->sample);
-  return r->skin && r->normals && r->surface && r->sample && recovery_report_begin(&r->recoveries, asset);
+  return r->skin && r->normals && r->surface && r->sample &&
+         recovery_report_begin(&r->recoveries, asset, 1 / r->s.fps);
 }
 
 static void read_skin(run_state *r) {
@@ -281,10 +282,11 @@ static const cli_option options[] = {
 const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S[,UP]] [--ground KIND] ...",
     "simulate a character and print measures",
     "Loads the file, simulates it and prints measures of the run.\n\n"
-    "`valid` is true if at every frame all numbers were finite, no element was inverted or\n"
-    "longer than ten times its rest length, and no body was put back into its rest shape.\n"
-    "`recoveries` counts how often bodies were put back; `recovered`, `inverted`, `stretched` and\n"
-    "`crushed` (an element below a fifth or the body below half of its volume) name the bodies.\n"
+    "`valid` is true if at every frame all numbers were finite, no element was inverted, none\n"
+    "was longer than ten times its rest length for more than 0.1 s, and no body was put back into\n"
+    "its rest shape. `recoveries` counts how often bodies were put back; `recovered`, `inverted`,\n"
+    "`stretched` and `crushed` (an element below a fifth or the body below half of its volume)\n"
+    "name the bodies.\n"
     "`volume_ratio` is the smallest ratio of all sections at the end, `volume_ratio_least` at any\n"
     "frame. Slip and penetration are measured at the skin's soles. docs/gait.md explains the measures of the "
     "gait.\n\n"
