@@ -79,31 +79,50 @@ def write_person_obj(path, scale):
     return path
 
 
-def write_person_bvh(path, scale):
-    """Motion capture of the person, standing still for two frames."""
+def write_person_bvh(path, scale, axes=("x", "y", "z"), loose=()):
+    """Motion capture of the person, standing still for two frames. Each axis of the file is one of the person's, as
+    "-z". `loose` bones have no parent, as Blender writes them: below a root "__0" without channels, with ends that an
+    importer invented."""
     heads, tips = heads_and_tips()
-    parents = {name: parent for name, parent, _ in PERSON}
+    parents = {name: None if name in loose else parent for name, parent, _ in PERSON}
+    if loose:
+        parents = {"__0": None, **{name: parent or "__0" for name, parent in parents.items()}}
+        heads = {"__0": (0, 0, 0), **heads}
+    for bone in loose:
+        tips[bone] = [h + 4 * (t - h) for h, t in zip(heads[bone], tips[bone])]
 
     def offset(a, b):
-        return " ".join(f"{(a[k] - b[k]) * scale:.4f}" for k in range(3))
+        moved = [(a[k] - b[k]) * scale for k in range(3)]
+        return " ".join(f"{moved['xyz'.index(axis[-1])] * (-1 if axis[0] == '-' else 1):.4f}" for axis in axes)
+
+    def channels_of(bone):
+        return 0 if bone == "__0" else 6 if parents[bone] in (None, "__0") else 3
 
     def lines_of(bone):
         above = heads[parents[bone]] if parents[bone] else (0, 0, 0)
-        channels = "Zrotation Xrotation Yrotation"
+        count = channels_of(bone)
         yield ("JOINT " if parents[bone] else "ROOT ") + bone
         yield "{"
         yield "OFFSET " + offset(heads[bone], above)
-        yield "CHANNELS " + ("3 " if parents[bone] else "6 Xposition Yposition Zposition ") + channels
-        children = [name for name, parent, _ in PERSON if parent == bone]
+        yield f"CHANNELS {count}" + " Xposition Yposition Zposition" * (count > 3) + " Zrotation Xrotation Yrotation" * (count > 0)
+        children = [name for name, parent in parents.items() if parent == bone]
         for child in children:
             yield from lines_of(child)
         if not children:
             yield from ("End Site", "{", "OFFSET " + offset(tips[bone], heads[bone]), "}")
         yield "}"
 
-    frame = offset(heads["hips"], (0, 0, 0)) + " 0" * (3 * len(PERSON))
+    def in_order(bone):
+        yield bone
+        for child in parents:
+            if parents[child] == bone:
+                yield from in_order(child)
+
+    root = next(iter(parents))
+    frame = " ".join((offset(heads[bone], (0, 0, 0)) + " " if channels_of(bone) == 6 else "") + "0 0 0"
+                     for bone in in_order(root) if channels_of(bone))
     with open(path, "w", encoding="ascii") as stream:
-        stream.write("\n".join(["HIERARCHY", *lines_of("hips"), "MOTION", "Frames: 2", "Frame Time: 0.0333", frame, frame, ""]))
+        stream.write("\n".join(["HIERARCHY", *lines_of(root), "MOTION", "Frames: 2", "Frame Time: 0.0333", frame, frame, ""]))
     return path
 
 

@@ -105,6 +105,22 @@ class StrangerRigs(ProgramTest):
                 low, high = (self.json_of("info", self.path("out.sbf"))["bounds"][k][1] for k in ("min", "max"))
                 self.assertAlmostEqual(high - low, 1.79, delta=0.02)
 
+    def test_motion_capture_of_blender_stands_as_the_input(self):
+        """Blender writes the armature's own axes, and bones without a parent below a root that it invents."""
+        mesh = write_person_obj(self.path("in.obj"), 1)
+        for axes, rotated in ((("x", "-y", "-z"), "by 180 degrees about x"), (("x", "-z", "y"), "by -90 degrees about x")):
+            for loose in ((), ("foot.L", "foot.R")):
+                with self.subTest(axes=axes, loose=loose):
+                    rig = write_person_bvh(self.path("in.bvh"), 1, axes, loose)
+                    said = self.good("convert", mesh, "--rig", rig, *SOURCE_PARTS, "-o", self.path("out.sbf"), "--verbose").err
+                    self.assertRegex(said, rf"in.bvh states no axes, .* the rig was rotated {rotated};.*\[RIG_ALIGNED\]")
+                    self.assertNotIn("[RIG_LIES]", said)
+                    self.assertEqual(said.count("[RIG_BONE_REHUNG]"), len(loose))
+                    self.assertNotIn("__0", read_text(self.path("out.sbf")))
+                    report = self.walk()
+                    self.assertEqual(set(report["steps_taken"]), {"foot.L", "foot.R"})
+                    self.assertGreater(report["distance"], 0.3)
+
     def test_a_floor_says_nothing_of_the_unit(self):
         glb = SkinnedGlb()
         add_person(glb)

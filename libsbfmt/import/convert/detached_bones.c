@@ -72,21 +72,25 @@ static bool is_loose(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32
   return depth <= MAX_FRAMES && !is_end(s, rig, bone) && count_below(s, rig, bone) <= 1;
 }
 
-/* Whether the bone is the last of a limb of at least two bones below a bone that is not a root. */
+/* Whether the bone is the last of a limb of at least two bones below another bone. */
 static bool ends_limb(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
   int32_t parent = s->bones[bone].parent;
   if (parent == SBF_NONE || is_end(s, rig, bone) || count_below(s, rig, bone)) return false;
-  int32_t above = s->bones[parent].parent;
-  return above != SBF_NONE && s->bones[above].parent != SBF_NONE &&
-         count_below(s, rig, (uint32_t)parent) == 1;
+  return s->bones[parent].parent != SBF_NONE && count_below(s, rig, (uint32_t)parent) == 1;
 }
 
 /* Factor on the distance of a loose bone at which the limb's last bone does not point. */
 static const double NOT_POINTED_AT = 4;
 
+static bool points_along(sbfi_d3 axis, sbfi_d3 direction) {
+  return sbfi_d3_dot(direction, sbfi_d3_normal(axis)) > SBFI_STRAIGHT;
+}
+
 /* Distance from the head of a limb's last bone to a loose bone that may continue it; INFINITY if it
- * cannot. The limb must point at the loose bone by its +Y, or, if not all bones run along +Y, continue
- * downwards to it. Importers turn the axes of some bones, so a limb that points at one takes that. */
+ * cannot. The limb must point at the loose bone by its end or its +Y, or, if not all bones run along +Y,
+ * continue downwards to it; on a root, which may be a frame, by its end alone. Importers turn the axes of
+ * some bones, so a limb that points at one takes that.
+ */
 static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t loose) {
   const sbfi_bone_draft *last = &s->bones[tip];
   int32_t old_parent = s->bones[loose].parent, limb = s->bones[last->parent].parent;
@@ -95,10 +99,11 @@ static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t
   sbfi_d3 before = sbfi_d3_sub(last->head, s->bones[last->parent].head);
   sbfi_d3 direction = sbfi_d3_normal(displacement);
   double length = sbfi_d3_length(displacement), length_before = sbfi_d3_length(before);
-  bool points = sbfi_d3_dot(direction, sbfi_d3_normal(last->y)) > SBFI_STRAIGHT;
+  bool ends_there = points_along(last->tip, direction), on_root = s->bones[limb].parent == SBF_NONE;
+  bool points = ends_there || points_along(last->y, direction);
   bool continues =
       !s->along_y && displacement.y < 0 && sbfi_d3_dot(direction, sbfi_d3_normal(before)) > AHEAD;
-  if ((!points && !continues) || length < SHORTEST_TIP * length_before ||
+  if ((!points && !continues) || (on_root && !ends_there) || length < SHORTEST_TIP * length_before ||
       length > LONGEST_TIP * length_before)
     return INFINITY;
   return points ? length : NOT_POINTED_AT * length;

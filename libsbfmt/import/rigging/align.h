@@ -35,6 +35,10 @@ bool sbfi_align_pose(sbfi_rigging *r, bool *found);
 /* Whether the rig has neither a unit nor a mesh, as motion capture: it is scaled to the input. */
 bool sbfi_rig_has_no_size(const sbfi_rigging *r);
 
+/* After an alignment: if the rig has no size, gives it the input's unit and, if its file states no axes and
+ * it does not stand upright, the input's axes. */
+void sbfi_adapt_rig(sbfi_rigging *r);
+
 /* Whether a transform agrees with `--unit`, `--up` and `--forward`. The scale is free if the rig has no
  * size. */
 bool sbfi_alignment_allowed(const sbfi_rigging *r, const sbfi_matrix *m);

@@ -182,27 +182,37 @@ static candidate refined(const search *s, candidate from) {
   return from;
 }
 
-/* Rank of a rotation by how rarely files need it: up on up with left on left; facing backwards; sideways;
- * others. */
-static uint32_t rarity_of(const sbfi_matrix *m) {
+/* Rotations by how rarely files need them. `min_better` is the minimum improvement over more common ones;
+ * `cost` is added where limbs are rotated too, in RARER. */
+enum { UPRIGHT, Z_UP_RIG, BACKWARDS, SIDEWAYS, OWN_AXES, OTHERS, RARITIES };
+static const struct {
+  double min_better, cost;
+} RARE[RARITIES] = {{0.02, 0}, {0.03, 1}, {0.03, 1}, {0.05, 2}, {0.2, 3}, {0.2, 3}};
+
+/* Motion capture from Blender has +Z up or the axes of its armature; left stays left. */
+static uint32_t rarity_of(const search *s, const sbfi_matrix *m) {
   double max = 0.9 * sbfi_similarity_scale(m);
-  if (m->at[1][1] < max && m->at[1][2] < max) return 3;
-  return m->at[0][0] > max ? 0 : m->at[0][0] < -max ? 1 : 2;
+  bool may_lie = sbfi_rig_has_no_size(s->r) && !s->r->rig.scene->axes_known;
+  if (m->at[1][1] < max && m->at[1][2] < max) {
+    if (!may_lie || m->at[0][0] < max) return OTHERS;
+    return m->at[2][1] > max ? Z_UP_RIG : OWN_AXES;
+  }
+  return m->at[0][0] > max ? UPRIGHT : m->at[0][0] < -max ? BACKWARDS : SIDEWAYS;
 }
 
 /* Selects the best of all rotations, each with its best scale and offset. A more common rotation stays
  * unless another is clearly better, as around straight chains of bones; the same holds for a usual unit
  * and offset. */
 static void choose(search *s) {
-  static const double by[] = {0.02, 0.03, 0.05, 0.2}; /* minimum improvement over more common rotations */
   double max = s->best.score;
-  for (uint32_t i = 0; i < 4 * ROTATIONS; i++) {
+  for (uint32_t i = 0; i < RARITIES * ROTATIONS; i++) {
     const candidate *plain = &s->of_rotation[i % ROTATIONS];
     uint32_t rarity = i / ROTATIONS;
-    if (!(plain->score > max - REACH) || rarity_of(&plain->m) != rarity) continue;
+    if (!(plain->score > max - REACH) || rarity_of(s, &plain->m) != rarity) continue;
     candidate better = refined(s, *plain);
     if (better.fraction < GOOD) better = *plain;
-    if (better.score < max + by[rarity] + (rarity && better.fraction < GOOD ? POSED : 0)) continue;
+    if (better.score < max + RARE[rarity].min_better + (rarity && better.fraction < GOOD ? POSED : 0))
+      continue;
     max = better.score;
     s->best = better.score >= plain->score + BETTER ? better : *plain;
   }
@@ -347,24 +357,6 @@ static sbf_status warn_of_misfit(const search *s, sbfi_arena *arena) {
   return SBF_OK;
 }
 
-/* Motion capture states no unit, so the input's unit is used: scales the rig instead of the input. */
-static void scale_rig(sbfi_rigging *r) {
-  double factor = sbfi_similarity_scale(&r->c->to_asset) / sbfi_similarity_scale(&r->alignment.to_asset);
-  if (!sbfi_rig_has_no_size(r) || fabs(factor - 1) < 1e-9) return;
-  for (uint32_t b = 0; b < r->c->asset->bones.count; b++) {
-    sbf_bone *bone = (sbf_bone *)(uintptr_t)&r->c->asset->bones.at[b]; /* the conversion owns the asset */
-    bone->head = sbfi_d3_rounded(sbfi_d3_scale(sbfi_d3_of(bone->head), factor));
-    bone->length = (float)((double)bone->length * factor);
-  }
-  sbfi_matrix *const matrices[] = {&r->c->rig_to_asset, &r->alignment.to_asset};
-  for (int i = 0; i < 2; i++)
-    for (int row = 0; row < 3; row++)
-      for (int k = 0; k < 4; k++) matrices[i]->at[row][k] *= factor;
-  sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
-      "%s states no unit: it was scaled by %.6g, so that its bones are inside the input", r->rig.scene->file,
-      factor);
-}
-
 /* Fraction of the input's points that are farther from every bone than the maximum radius of a body. */
 static double uncovered_fraction(const search *s) {
   const sbf_vec3_list points = s->r->input.mesh.positions;
@@ -391,7 +383,7 @@ static void add_candidate(const search *s, const sbfi_matrix *m, sbfi_limb_candi
     if (fabs(scale / sbfi_usual_units[i].unit_m - 1) < SAME_SCALE) factor = USUAL_UNIT;
   if (fabs(scale / sbfi_similarity_scale(&s->r->c->to_asset) - 1) < SAME_SCALE) factor = STATED_UNIT;
   if (factor < 1 && stays) factor *= NO_OFFSET;
-  to[(*count)++] = (sbfi_limb_candidate){*m, factor * (1 + RARER * rarity_of(m))};
+  to[(*count)++] = (sbfi_limb_candidate){*m, factor * (1 + RARER * RARE[rarity_of(s, m)].cost)};
 }
 
 /* Collects candidate alignments for a rig in another pose: the best of the plausible rotations, and those
@@ -403,7 +395,7 @@ static uint32_t collect_candidates(search *s, sbfi_limb_candidate to[MAX_CANDIDA
   for (uint32_t i = 0; i < ROTATIONS; i++) {
     const candidate *plain = &s->of_rotation[i];
     if (!(plain->score > s->best.score - REACH)) continue;
-    if (plain->score < s->best.score && rarity_of(&plain->m) != 0) continue;
+    if (plain->score < s->best.score && rarity_of(s, &plain->m) != UPRIGHT) continue;
     candidate better = refined(s, *plain);
     add_candidate(s, &plain->m, to, &count);
     add_candidate(s, &better.m, to, &count);
@@ -520,7 +512,7 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
     }
     r->alignment.to_asset = s.best.m;
     r->alignment.inside = s.best.fraction;
-    if (s.best.fraction >= SBFI_MIN_BONES_INSIDE) scale_rig(r);
+    if (s.best.fraction >= SBFI_MIN_BONES_INSIDE) sbfi_adapt_rig(r);
     r->alignment.is_stated = memcmp(&s.best.m, &r->c->to_asset, sizeof s.best.m) == 0;
     if (status == SBF_OK && s.best.fraction < SBFI_MIN_BONES_INSIDE)
       status = refuse(&s, &scratch);

@@ -20,8 +20,14 @@ static void add_line(sbfi_bone_lines *s, const sbf_bone *bones, uint32_t child, 
   s->total += length;
 }
 
+static bool has_child(const sbf_bone_list *bones, uint32_t bone) {
+  for (uint32_t b = bone + 1; b < bones->count; b++)
+    if (bones->at[b].parent == (int32_t)bone) return true;
+  return false;
+}
+
 /* Exporters place the end of a limb's last bone at a distance from their settings. Ends farther than the
- * longest bone of the rig's limbs are moved to the median length. */
+ * longest bone of the rig's limbs are moved to the median length, marked by a bone or not. */
 static void shorten_ends(const sbfi_rigging *r, const bool *has_skin_points, double *lengths) {
   const sbf_bone_list *bones = &r->c->asset->bones;
   const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
@@ -37,9 +43,13 @@ static void shorten_ends(const sbfi_rigging *r, const bool *has_skin_points, dou
   qsort(lengths, count, sizeof *lengths, compare_lengths);
   double longest = lengths[count - 1], median = lengths[count / 2];
   for (uint32_t b = 0; b < bones->count; b++) {
+    sbf_bone *last = (sbf_bone *)(uintptr_t)&bones->at[b]; /* the conversion owns the asset */
+    if ((double)last->length > longest && !has_child(bones, b)) last->length = (float)median;
+  }
+  for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
     if (!sbfi_bone_is_end(&in, b) || !has_skin_points[parent]) continue;
-    sbf_bone *end = (sbf_bone *)(uintptr_t)&bones->at[b]; /* the conversion owns the asset */
+    sbf_bone *end = (sbf_bone *)(uintptr_t)&bones->at[b];
     sbf_bone *last = (sbf_bone *)(uintptr_t)&bones->at[parent];
     sbfi_d3 from = sbfi_d3_of(last->head), along = sbfi_d3_sub(sbfi_d3_of(end->head), from);
     double length = sbfi_d3_length(along);

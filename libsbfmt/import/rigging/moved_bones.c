@@ -82,3 +82,11 @@ bool sbfi_rig_move_bones(sbfi_rigging *r, const sbfi_matrix *motions) {
   move_bones(motions, (sbf_bone *)(uintptr_t)bones.at, bones.count); /* the conversion owns the asset */
   return true;
 }
+
+void sbfi_rig_turn(sbfi_rigging *r, const sbfi_matrix *turn) {
+  sbf_bone_list bones = r->c->asset->bones;
+  sbf_bone *at = (sbf_bone *)(uintptr_t)bones.at; /* the conversion owns the asset */
+  for (uint32_t b = 0; b < bones.count; b++) move_bones(turn, &at[b], 1);
+  r->c->rig_to_asset = sbfi_matrix_multiply(turn, &r->c->rig_to_asset);
+  r->alignment.to_asset = sbfi_matrix_multiply(turn, &r->alignment.to_asset);
+}

@@ -8,4 +8,7 @@
  * rotations and offsets in asset space. False if memory runs out. */
 bool sbfi_rig_move_bones(sbfi_rigging *r, const sbfi_matrix *motions);
 
+/* Rotates the rig's whole space, with the asset's bones and the aligned input. */
+void sbfi_rig_turn(sbfi_rigging *r, const sbfi_matrix *turn);
+
 #endif

@@ -201,6 +201,18 @@ static void mark_unskinned_skeleton(sbfi_assembly *a) {
   for (uint32_t i = 0; count < 2 && i < a->scene->node_count; i++) nodes[i].is_bone = false;
 }
 
+/* Blender writes a skeleton of several roots as a BVH under a root "__0" at the origin, which is no bone. */
+static bool is_invented_root(const sbfi_scene_node *nodes, uint32_t count, uint32_t node) {
+  const char *digits = nodes[node].name + 2;
+  uint32_t children = 0;
+  if (strncmp(nodes[node].name, "__", 2) != 0 || !*digits || digits[strspn(digits, "0123456789")])
+    return false;
+  for (int row = 0; row < 3; row++)
+    if (nodes[node].local.at[row][3] != 0) return false;
+  for (uint32_t i = node + 1; i < count; i++) children += nodes[i].parent == (int32_t)node;
+  return children > 1;
+}
+
 /* glTF lists the joints of a skin, and FBX marks limbs. In other formats only joints with points are
  * known: adds nodes that connect them and their descendants, but never the root of the file. In a BVH
  * every node is a joint. */
@@ -224,7 +236,7 @@ static bool mark_bones(sbfi_assembly *a) {
     bool below = has_parent && nodes[nodes[i].parent].is_bone;
     bool joins = has_parent && (int32_t)i >= top && bones_below[i] > 0;
     bool may = (raw->mesh_count == 0 || invented) && raw->kind != SBFI_STREAM_NO_BONE &&
-               !sbfi_span_begins(raw->name, "EndSite");
+               !sbfi_span_begins(raw->name, "EndSite") && !(all && is_invented_root(nodes, count, i));
     if (may && (all || below || joins)) nodes[i].is_bone = true;
   }
   return true;
