@@ -584,6 +584,33 @@ class FromBones(ProgramTest):
                 wanted = max(p[1] for p in wanted) - min(p[1] for p in wanted)
                 self.assertAlmostEqual(height / wanted / float(unit or 1), 1, delta=0.15)
 
+    def test_a_skin_cut_along_its_bones_is_one_skin(self):
+        """As Blender splits by vertex groups: pieces are named like bones and share the points of their borders."""
+        def bone_of(corners):
+            weights = self.calf.expected([p for p, _, _ in corners])
+            return max(weights, key=weights.get).replace(" ", "_")
+
+        whole = variants.one_object(variants.merged(self.calf.obj))
+        cut = whole.copy()
+        cut.faces = sorted(((bone_of([(o, 0, 0) for p, _, _ in c for o in whole.origins[p]]), m, c) for _, m, c in whole.faces),
+                           key=lambda face: face[0])
+        self.good(*self.convert(whole, *SOURCE_PARTS))
+        expected = weights_by_vertex(self.path("out.sbf"))
+        for name, pieces in (("shared", cut), ("doubled", variants.doubled(cut, lambda face, corner: (corner[0], face[0])))):
+            with self.subTest(name):
+                said = self.good(*self.convert(pieces, *SOURCE_PARTS, "--verbose")).err
+                self.assertRegex(said, r"are open and share their borders, .*--weights named .*\[IMPORT_POINTS_JOINED\]")
+                found = {place: weights for weights, place in weights_by_vertex(self.path("out.sbf")).values()}
+                errors = sorted(difference(weights, found[place]) for weights, place in expected.values())
+                self.assertLess(errors[int(0.95 * len(errors))], 1e-3)  # another order of points: other ties and rounding
+        self.good(*self.convert(cut))
+        report = self.json_of("run", self.path("out.sbf"), "--seconds", "2", "--drive", "0.3,0")
+        self.assertTrue(report["valid"])
+        self.assertLess(report["max_strain"], 1)
+        self.assertGreater(report["distance"], 0.2)
+        said = self.good(*self.convert(cut, *SOURCE_PARTS, "--weights", "named")).err
+        self.assertNotIn("IMPORT_POINTS_JOINED", said)
+
     def test_a_rig_of_another_character_is_refused(self):
         pole = variants.Obj([(0.01 * x, y, 0.01 * z) for x in (0, 1) for y in (0, 3) for z in (0, 1)], [], [],
                             [("pole", None, [(i, None, None) for i in c]) for c in

@@ -12,6 +12,7 @@
 #include "import/rigging/report_separated.h"
 #include "import/rigging/rig_pose.h"
 #include "import/rigging/rigged_scene.h"
+#include "import/rigging/skin_pieces.h"
 #include "import/rigging/weigh.h"
 #include "mechanics/vector.h"
 
@@ -456,6 +457,8 @@ sbf_status sbfi_rig_input(sbfi_conversion *c) {
         c->options->shells[0].group);
   if (!c->rig || c->asset->bones.count == 0 || c->scene->mesh_count == 0) return SBF_OK;
   if (own_rig && mode == MODE_ANY) return SBF_OK;
+  if (!own_rig && (mode == MODE_ANY || mode == MODE_COMPUTE) && !sbfi_join_skin_pieces(c))
+    return sbfi_convert_no_memory(c);
   sbfi_rigging r = {.c = c};
   return rig_objects(&r, mode);
 }
