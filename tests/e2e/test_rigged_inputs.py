@@ -8,7 +8,7 @@ import obj_variants as variants
 from bundle_file import Bundle
 from rigged_weights import weights_by_vertex
 from skinned_glb import SkinnedGlb, box, inverse_binds, tube
-from sbfmt_program import SOURCE_PARTS, ProgramTest, main, read_text
+from sbfmt_program import SOURCE_PARTS, ProgramTest, call, main, read_text
 from test_computed_weights import write_arm, write_bones
 
 
@@ -336,6 +336,28 @@ class RiggedInputs(ProgramTest):
                 self.assertEqual([names[b] for b, _ in weights], ["plume" if y > 2.25 else "high"])
                 seen += 1
         self.assertEqual(seen, sum(map(len, column.wanted.values())))
+
+    def test_bones_of_the_same_names_elsewhere(self):
+        """A rigged input with the rig of another character of one author, whose bones have the same names."""
+        source = Column().glb.write(self.path("in.glb"))
+        for name, offsets, outcome in (("same", (0, 1, 1.2), None), ("longer", (0, 1, 1.5), "warning"), ("other", (0, 0.4, 0.3), "error")):
+            with self.subTest(name):
+                rig = SkinnedGlb()
+                joints = []
+                for bone, offset in zip(("low", "high", "plume"), offsets):
+                    joints.append(rig.node(bone, joints[-1] if joints else None, at(0, offset, 0)))
+                worlds = [at(0, sum(offsets[:i + 1]), 0) for i in range(3)]
+                points, triangles = tube(0, sum(offsets) + 0.3, 0.2)
+                mesh = rig.mesh(points, triangles, [(1, 0, 0, 0)] * len(points), [(1, 0, 0, 0)] * len(points))
+                rig.node("skin", mesh=mesh, skin=rig.skin(joints, inverse_binds(worlds, at(0, 0, 0))))
+                done = call("convert", source, "--rig", rig.write(self.path("rig.glb")), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+                self.assertEqual(done.status, outcome == "error")
+                if outcome == "warning":
+                    self.assertRegex(done.err, r"1 of 3 bones of .*, 'plume' by 1\d % of the extent.*leave out --rig.*\[RIG_OTHER_MESH\]")
+                elif outcome:
+                    self.assertRegex(done.err, r"half of them are farther off than 2\d % .*leave out --rig.*\[RIG_MISFIT\]")
+                else:
+                    self.assertNotIn("leave out --rig", done.err)
 
 
 class ArmOfAnotherFile(ProgramTest):

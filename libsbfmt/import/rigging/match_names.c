@@ -50,7 +50,7 @@ static int32_t find_namesake(
   return best;
 }
 
-static int32_t find_bone(const sbfi_rigging *r, const char *object) {
+int32_t sbfi_find_bone_node(const sbfi_rigging *r, const char *object) {
   const sbfi_scene *rig = r->rig.scene;
   for (uint32_t i = 0; i < rig->node_count; i++)
     if (rig->nodes[i].is_bone && strcmp(rig->nodes[i].name, object) == 0) return (int32_t)i;
@@ -70,10 +70,10 @@ static void weigh_by_bones(sbfi_rigging *r) {
   const sbfi_scene *scene = r->input.scene;
   uint32_t named = 0;
   for (uint32_t m = 0; m < scene->mesh_count; m++)
-    named += find_bone(r, scene->nodes[scene->meshes[m].node].name) != SBF_NONE;
+    named += sbfi_find_bone_node(r, scene->nodes[scene->meshes[m].node].name) != SBF_NONE;
   if (named < 2 || 2 * named <= scene->mesh_count) return;
   for (uint32_t m = 0; m < scene->mesh_count; m++) {
-    int32_t bone = find_bone(r, scene->nodes[scene->meshes[m].node].name);
+    int32_t bone = sbfi_find_bone_node(r, scene->nodes[scene->meshes[m].node].name);
     if (bone != SBF_NONE) set_parent_node(r, m, bone);
   }
 }
@@ -95,34 +95,4 @@ void sbfi_weigh_by_name(sbfi_rigging *r) {
     if (r->c->bone_of_node[rig->meshes[other].node] != SBF_NONE)
       set_parent_node(r, m, rig->meshes[other].node);
   }
-}
-
-/* --- Skins of the input -------------------------------------------------------------------------------- */
-
-/* Copies weights of a skin if all joints have names of the rig's bones; false if one does not. */
-static bool weigh_by_joints(sbfi_rigging *r, uint32_t mesh) {
-  const sbfi_scene *scene = r->input.scene;
-  const sbfi_scene_mesh *from = &scene->meshes[mesh];
-  for (uint32_t i = 0; i < from->skin.starts[from->point_count]; i++)
-    if (find_bone(r, scene->nodes[from->skin.joints[from->skin.joint_index[i]].node].name) == SBF_NONE)
-      return false;
-  for (uint32_t i = 0; i < from->point_count; i++) {
-    sbfi_influences *to = &r->weights[r->input.mesh_starts[mesh] + i];
-    for (uint32_t s = from->skin.starts[i]; s < from->skin.starts[i + 1]; s++) {
-      int32_t bone = find_bone(r, scene->nodes[from->skin.joints[from->skin.joint_index[s]].node].name);
-      sbfi_influences_add(to, (uint32_t)bone, (double)from->skin.weights[s]);
-    }
-    sbfi_influences_finish(to);
-    if (to->at[0].weight > 0) r->sources[r->input.mesh_starts[mesh] + i] = SBFI_WEIGHTS_NAMED;
-  }
-  return true;
-}
-
-void sbfi_weigh_by_own_skin(sbfi_rigging *r) {
-  const sbfi_scene *scene = r->input.scene;
-  for (uint32_t m = 0; m < scene->mesh_count; m++)
-    if (scene->meshes[m].skin.joint_count && !weigh_by_joints(r, m))
-      sbfi_convert_warn(r->c, SBF_CODE_IMPORT_IGNORED,
-          "the skin of object '%s' names bones that the rig does not have, so its weights are left out",
-          scene->nodes[scene->meshes[m].node].name);
 }

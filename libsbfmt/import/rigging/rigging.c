@@ -418,9 +418,9 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   if (!prepare(r) || (c->rig != c->scene && !align_by_points(r, &by_points)))
     return sbfi_convert_no_memory(c);
   if (mode == MODE_ANY || mode == MODE_NAMED) sbfi_weigh_by_name(r);
-  if (mode == MODE_ANY) sbfi_weigh_by_own_skin(r);
+  sbf_status status = mode == MODE_ANY ? sbfi_weigh_by_own_skin(r) : SBF_OK;
   bool alike = by_points;
-  sbf_status status = sbfi_weigh_shells(r);
+  if (status == SBF_OK) status = sbfi_weigh_shells(r);
   if (status == SBF_OK && mode == MODE_NAMED && !has_named_objects(r) && !r->c->options->shell_count)
     status = refuse_nameless(r);
   if (status == SBF_OK) status = align_rest(r, mode, &alike);

@@ -14,8 +14,10 @@ double sbfi_names_distance(const sbfi_rigging *r, const sbfi_matrix *to_asset);
 /* By the caller's request: objects, or shells of them (pieces that share no point), that exactly one bone
  * moves. Runs after the names. IMPORT_PIN_UNKNOWN if an object, shell or bone does not exist. */
 sbf_status sbfi_weigh_shells(sbfi_rigging *r);
-/* By the input's own skins, for bones with equal names. */
-void sbfi_weigh_by_own_skin(sbfi_rigging *r);
+/* By the input's own skins, for bones with equal names. RIG_MISFIT if these are at other positions. */
+sbf_status sbfi_weigh_by_own_skin(sbfi_rigging *r);
+/* Node of the rig's bone of a name, or SBF_NONE. */
+int32_t sbfi_find_bone_node(const sbfi_rigging *r, const char *name);
 
 /* By position: points at points of the rig's meshes. `moved` is the input in asset space. */
 bool sbfi_weigh_by_position(sbfi_rigging *r, const sbfi_scene_surface *moved);
