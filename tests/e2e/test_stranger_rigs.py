@@ -3,7 +3,7 @@
 import json
 import re
 
-from bundle_file import matrix_of
+from bundle_file import Bundle, matrix_of
 from sbfmt_program import SOURCE_PARTS, ProgramTest, main, read_bytes, read_text, write_bytes
 from skinned_glb import SkinnedGlb, box
 from stranger_rigs import add_person, people, turned, write_person_bvh, write_person_obj
@@ -141,8 +141,12 @@ class StrangerRigs(ProgramTest):
         for i in range(2):
             add_person(glb, f"person{i}", matrix_of((2 * i, 0, 0)))
         glb.write(self.path("in.glb"))
-        said = self.good("convert", self.path("in.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf")).err
-        self.assertRegex(said, r'2 nodes have the name "hips", .*give each node its own name .*\[IMPORT_NAME_AMBIGUOUS\]')
+        said = self.good("convert", self.path("in.glb"), *SOURCE_PARTS, "--verbose", "-o", self.path("out.sbf")).err
+        self.assertRegex(said, r'several nodes have the name "hips", .*the skins of all follow the first one, and lie on it; '
+                               r'give the bones of each armature their own names, or export each .*\[IMPORT_NAME_AMBIGUOUS\]')
+        self.assertEqual(said.count("IMPORT_NAME_AMBIGUOUS"), 1)
+        for mesh in Bundle(self.path("out.sbf")).meshes:  # both on the first
+            self.assertLess(max(abs(x) for x, _, _ in Bundle(self.path("out.sbf")).positions(mesh)), 1)
 
     def test_a_tiny_one_has_steps_that_a_tick_resolves(self):
         self.converted(matrix_of(scale=(1 / 1800,) * 3))

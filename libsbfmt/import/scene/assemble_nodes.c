@@ -242,6 +242,29 @@ static bool mark_bones(sbfi_assembly *a) {
   return true;
 }
 
+/* assimp identifies the joints of a skin by name. Several equal ones are two armatures of one origin: a
+ * single warning says what becomes of their skins. */
+static bool report_equal_armatures(sbfi_assembly *a) {
+  uint32_t count = 0;
+  const char *example = NULL;
+  for (int pass = 0; pass < 2 && count != 1; pass++) /* counts them, then takes away their own warnings */
+    for (uint32_t m = 0; m < a->raw->mesh_count; m++)
+      for (uint32_t b = 0; b < a->raw->meshes[m].bone_count; b++) {
+        int64_t name = sbfi_name_table_find(&a->names, a->raw->meshes[m].bones[b].name);
+        if (name < 0 || !a->ties[name]) continue;
+        const char *text = a->nodes[a->node_of_name[name]].name;
+        if (!example) example = text;
+        count += pass == 0 && (count == 0 || strcmp(text, example) != 0);
+        if (pass) a->ties[name] = 0;
+      }
+  return count < 2 ||
+         sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_NAME_AMBIGUOUS, 0,
+             "several nodes have the name \"%s\", and other joints too, as in two armatures with "
+             "equal names: the skins of all follow the first one, and lie on it; give the bones "
+             "of each armature their own names, or export each character to its own file",
+             example);
+}
+
 bool sbfi_assemble_bones(sbfi_assembly *a) {
   sbfi_name_table_init(&a->names, a->allocator);
   for (uint32_t i = 0; i < a->scene->node_count; i++)
@@ -252,7 +275,7 @@ bool sbfi_assemble_bones(sbfi_assembly *a) {
   a->ties = sbfi_arena_allocate(&a->scratch, name_count, sizeof *a->ties);
   if (!a->node_of_name || !a->ties) return false;
   choose(a);
-  bool good = true;
+  bool good = report_equal_armatures(a);
   for (uint32_t m = 0; m < a->raw->mesh_count && good; m++)
     for (uint32_t b = 0; b < a->raw->meshes[m].bone_count && good; b++) {
       int32_t node = sbfi_assembly_find(a, a->raw->meshes[m].bones[b].name, &good);
