@@ -336,15 +336,15 @@ static uint32_t next_pending(const uint8_t *pending, uint32_t from, uint32_t cou
 /* Alternates the direction along the surface, so that weights travel along a whole limb in one sweep. */
 static bool sweep_all(work *w, uint32_t *left) {
   uint32_t count = w->s->triangle_count;
-  uint64_t checks = 0;
-  for (int sweep = 0; sweep < MAX_SWEEPS && checks <= (uint64_t)MAX_CHECKS * count; sweep++) {
+  uint64_t max_checks = w->s->checks + (uint64_t)MAX_CHECKS * count;
+  for (int sweep = 0; sweep < MAX_SWEEPS && w->s->checks <= max_checks; sweep++) {
     const bool down = sweep % 2;
     *left = 0;
     for (uint32_t n = 0; (n = next_pending(w->pending, n, count, down)) < count; n++) {
       uint32_t i = down ? count - 1 - n : n;
       double stretch;
       w->pending[i] = 0;
-      checks++;
+      w->s->checks++;
       if (!find_stretch(w, i, &stretch)) return false;
       if (stretch <= MAX_STRETCH) continue;
       ++*left;

@@ -38,6 +38,7 @@ typedef struct sbfi_blend_surface {
   /* (point_count) points that keep their weights as long as others can change; NULL: none */
   const uint8_t *fixed;
   uint8_t *changed; /* (point_count) receives 1 for changed weights */
+  uint64_t checks;  /* number of triangles that were bent so far: the cost */
 } sbfi_blend_surface;
 
 /* Smaller weights are added to the greatest of their point, so that rows stay short however far weights

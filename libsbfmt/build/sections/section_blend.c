@@ -64,7 +64,8 @@ static bool write_back(sbfi_skin_union *skin, const sbfi_blend_surface *s, sbfi_
 }
 
 bool sbfi_section_blend_smooth(sbfi_skin_union *skin, const sbfi_skin_union *authored, const sbfi_topology *t,
-    const sbf_asset *asset, const uint8_t *soft, const uint8_t *fixed, uint32_t *left, sbfi_arena *arena) {
+    const sbf_asset *asset, const uint8_t *soft, const uint8_t *fixed, uint32_t *left, uint64_t *checks,
+    sbfi_arena *arena) {
   uint32_t points = skin->mesh.positions.count;
   sbfi_blend_surface s = {.bones = asset->bones.at,
       .joints = sbfi_blend_joints_make(&asset->bones, arena),
@@ -76,6 +77,8 @@ bool sbfi_section_blend_smooth(sbfi_skin_union *skin, const sbfi_skin_union *aut
       .fixed = fixed,
       .changed = sbfi_arena_allocate(arena, (size_t)points + 1, 1)};
   *left = 0;
-  return s.joints && s.rows && s.before && s.changed && make_triangles(&s, &skin->mesh, t, arena) &&
-         sbfi_blend_levels_relax(&s, left, arena) && write_back(skin, &s, arena);
+  bool good = s.joints && s.rows && s.before && s.changed && make_triangles(&s, &skin->mesh, t, arena) &&
+              sbfi_blend_levels_relax(&s, left, arena) && write_back(skin, &s, arena);
+  if (checks) *checks = s.checks;
+  return good;
 }

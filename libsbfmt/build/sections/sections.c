@@ -221,7 +221,7 @@ static bool smooth_blends(work *w) {
   uint8_t *soft = sbfi_arena_allocate(w->scratch, (size_t)w->asset->bones.count + 1, 1);
   if (!soles || !soft || !sbfi_soles_gather(&w->skin, w->asset, soles, w->scratch)) return false;
   for (uint32_t b = 0; b < w->asset->bones.count; b++) soft[b] = is_soft(w, b);
-  if (!sbfi_section_blend_smooth(&w->skin, &authored, &w->t, w->asset, soft, soles, &left, w->scratch))
+  if (!sbfi_section_blend_smooth(&w->skin, &authored, &w->t, w->asset, soft, soles, &left, NULL, w->scratch))
     return false;
   if (left == 0) return true;
   sbfi_diagnose(&diagnostic, SBF_CODE_SECTION_STRETCHED,
