@@ -44,3 +44,4 @@ if wanted thrown; then
   done
 fi
 if wanted levels; then gnuplot bench/draw_levels.gp; fi
+if wanted peers; then gnuplot bench/draw_peers.gp; fi

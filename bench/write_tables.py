@@ -154,6 +154,19 @@ def character_row(r):
             r["skin_us"], r["frame_us"], r["worst_us"]]
 
 
+def short(text, digits=2):
+    """So many digits that count, without a power of ten."""
+    return f"{float(text):.{digits}g}" if text else ""
+
+
+def peers_row(r):
+    exploded = "" if not r["exploded_at_frame"] else f"exploded at frame {r['exploded_at_frame']}"
+    setting = r["setting"] + (", recommended" if r["recommended"] else "")
+    return [r["case"], r["engine"] + " " + r["version"], setting or r["note"], number(r["us_per_simulated_second"]),
+            exploded or short(r["error_own"]), short(r["error_continuum"]), short(r["energy_drift"]), short(r["momentum_drift"]),
+            short(r["least_volume"], 3)]
+
+
 TABLES = {
     "lattice": (lattice_row, "surface | by | tetrahedra | ms | tetrahedra/s | min angle | max angle | volume | max distance, cells | "
                              "peak KiB", 2),
@@ -176,6 +189,8 @@ TABLES = {
     "detail": (detail_row, "levels | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft "
                            "| of them coarser | bones | away | were away | max MB", 1),
     "page": (page_row, "scene | program | ms a tick | in the slowest half second | ticks a second | there", 2),
+    "peers": (peers_row, "case | engine | setting | µs a simulated second | error, own model | error, continuum | energy | angular momentum "
+                         "| min volume", 3),
     "falls": (falls_row, "scene | elements | engine | method | steps | iterations | falling, µs | at rest, µs | joint gap, mm | limit violation, degrees "
                          "| penetration, mm | at rest, mm/s | stretch, %", 1),
     "knocked": (knocked_row, "steps | tick, ms | of a walk, ms | bone error, mm | point error, mm", 1),
