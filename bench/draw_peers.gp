@@ -23,27 +23,26 @@ begins(name, kind) = strlen(name) >= strlen(kind) && name[1:strlen(kind)] eq kin
 ends(name, kind) = strlen(name) >= strlen(kind) && name[strlen(name) - strlen(kind) + 1:strlen(name)] eq kind
 in_series(i) = strcol(1) eq which && strcol(2) eq engines[i] && (begins(strcol(4), kinds[i]) || ends(strcol(4), kinds[i]))
 is_drawn(i) = in_series(i) && strlen(strcol(6)) && strlen(strcol(7))
-has_series(i) = int(word(counts, i)) > 0
 title_of(i) = engines[i].", ".(kinds[i] eq ", 10 iterations" ? "10 iterations, steps" : kinds[i] eq "1 steps, " ? "1 step, iterations" : kinds[i] eq " steps" ? "steps" : kinds[i])
 
-do for [which in "beam spin pendulum"] {
+do for [which in "beam spin pendulum chain"] {
   set output "docs/media/peers-".which.".svg"
-  counts = ""
+  present = "" # series that have a point
   do for [i = 1:16] {
     stats results using (is_drawn(i) ? 1 : 0) every ::1 nooutput
-    counts = counts.sprintf("%d ", STATS_sum)
+    if (STATS_sum > 0) { present = present.sprintf("%d ", i) }
   }
   failed = ""
   do for [engine in "sbfmt Jolt MuJoCo Bullet Rapier"] {
-    stats results using (strcol(1) eq which && strcol(2) eq engine && strlen(strcol(12)) ? 1 : 0) every ::1 nooutput
+    stats results using (strcol(1) eq which && strcol(2) eq engine && strlen(strcol(13)) ? 1 : 0) every ::1 nooutput
     if (STATS_sum > 0) { failed = failed.sprintf("%s%s %d", strlen(failed) ? ", " : "", engine, STATS_sum) }
   }
   set title "{/:Bold ".which."}".(strlen(failed) ? ": settings that exploded and are not drawn: ".failed : "") noenhanced
   set title enhanced
-  set ylabel which eq "beam" ? "error of the sag, against the engine's own model" : which eq "spin" ? "RMS error / length, against its own model" : "RMS error / arm, against the exact motion"
-  plot for [i = 1:16] (has_series(i) ? results : "/dev/null") using (is_drawn(i) ? $6 : NaN):(is_drawn(i) ? $7 : NaN) every ::1 \
-         with linespoints pt shapes[i] ps 0.9 lw 1.5 lc rgb color(engines[i]) title (has_series(i) ? title_of(i) : "") noenhanced, \
-       for [i = 1:16] (has_series(i) ? results : "/dev/null") using (is_drawn(i) && strcol(5) eq "yes" ? $6 : NaN):7 every ::1 \
-         with points pt 6 ps 2.2 lw 1.5 lc rgb color(engines[i]) notitle, \
+  set ylabel which eq "beam" ? "error of the sag, against the engine's own model" : which eq "spin" ? "RMS error / length, against its own model" : "RMS error / length, against the exact motion"
+  plot for [n in present] results using (is_drawn(int(n)) ? $6 : NaN):(is_drawn(int(n)) ? $7 : NaN) every ::1 \
+         with linespoints pt shapes[int(n)] ps 0.9 lw 1.5 lc rgb color(engines[int(n)]) title title_of(int(n)) noenhanced, \
+       for [n in present] results using (is_drawn(int(n)) && strcol(5) eq "yes" ? $6 : NaN):7 every ::1 \
+         with points pt 6 ps 2.2 lw 1.5 lc rgb color(engines[int(n)]) notitle, \
        NaN with points pt 6 ps 2.2 lw 1.5 lc rgb "#000000" title "recommended"
 }

@@ -164,7 +164,7 @@ def peers_row(r):
     setting = r["setting"] + (", recommended" if r["recommended"] else "")
     return [r["case"], r["engine"] + " " + r["version"], setting or r["note"], number(r["us_per_simulated_second"]),
             exploded or short(r["error_own"]), short(r["error_continuum"]), short(r["energy_drift"]), short(r["momentum_drift"]),
-            short(r["least_volume"], 3)]
+            short(r["least_volume"], 3), short(1000 * float(r["joint_gap_m"])) if r["joint_gap_m"] else ""]
 
 
 TABLES = {
@@ -190,7 +190,7 @@ TABLES = {
                            "| of them coarser | bones | away | were away | max MB", 1),
     "page": (page_row, "scene | program | ms a tick | in the slowest half second | ticks a second | there", 2),
     "peers": (peers_row, "case | engine | setting | µs a simulated second | error, own model | error, continuum | energy | angular momentum "
-                         "| min volume", 3),
+                         "| min volume | gap, mm", 3),
     "falls": (falls_row, "scene | elements | engine | method | steps | iterations | falling, µs | at rest, µs | joint gap, mm | limit violation, degrees "
                          "| penetration, mm | at rest, mm/s | stretch, %", 1),
     "knocked": (knocked_row, "steps | tick, ms | of a walk, ms | bone error, mm | point error, mm", 1),

@@ -78,29 +78,35 @@ function spin() {
   return { ...made, theory: rate * seconds * (1 - stretch), reading: null, samePoints: true };
 }
 
-/** A rigid bar of 1 x 0.2 x 0.2 m hung by the middle of its end face on a ball joint, let go 60 degrees from below. Theory: the period
- * by the arithmetic-geometric mean. */
-function pendulum() {
-  const gravity = 9.81, amplitude = Math.PI / 3, mass = DENSITY * LENGTH * WIDTH ** 2, arm = LENGTH / 2;
-  const across = mass * (LENGTH ** 2 + WIDTH ** 2) / 12, along = mass * WIDTH ** 2 / 6, inertia = across + mass * arm ** 2;
-  let [a, g] = [1, Math.cos(amplitude / 2)];
-  for (let i = 0; i < 8; i++) [a, g] = [(a + g) / 2, Math.sqrt(a * g)];
-  const theory = 2 * Math.PI * Math.sqrt(inertia / (mass * gravity * arm)) / a;
-  return { name: 'pendulum', frames: 600, gravity, amplitude, mass, arm, width: WIDTH, length: LENGTH, moments: [along, across, across], inertia, theory };
-}
+/** Principal moments of a box that lies along x. */
+const boxMoments = (mass, length, width) => [mass * width ** 2 / 6, mass * (length ** 2 + width ** 2) / 12, mass * (length ** 2 + width ** 2) / 12];
 
-export const CASES = { beam, spin, pendulum };
-
-/** Where the pendulum's middle is at each frame, by steps of Runge-Kutta far below what is measured. */
-export function exactPendulum({ frames, gravity, amplitude, mass, arm, inertia }) {
-  const pull = (x) => -mass * gravity * arm / inertia * Math.sin(x), steps = 200, h = FRAME_S / steps, path = [];
-  let [x, v] = [amplitude, 0];
-  for (let frame = 0; frame < frames; frame++) {
-    for (let i = 0; i < steps; i++) {
-      const a = pull(x), b = pull(x + h / 2 * v), c = pull(x + h / 2 * v + h * h / 4 * a), d = pull(x + h * v + h * h / 2 * b);
-      [x, v] = [x + h * v + h * h / 6 * (a + b + c), v + h / 6 * (a + 2 * b + 2 * c + d)];
-    }
-    path.push([arm * Math.sin(x), -arm * Math.cos(x), 0]);
+/** Rigid boxes in a straight line from the origin on, each on a ball joint at the middle of its end faces, let go from rest. `start`: the
+ * middle of each, m; `angle`: from straight below. */
+function hung(options) {
+  const { links, angle } = options;
+  let along = 0;
+  for (const link of links) {
+    link.moments = boxMoments(link.mass, link.length, link.width);
+    link.start = [Math.sin(angle), -Math.cos(angle), 0].map((x) => (along + link.length / 2) * x);
+    along += link.length;
   }
-  return path;
+  return { gravity: 9.81, length: along, ...options };
 }
+
+/** One box of 1 x 0.2 x 0.2 m at 60 degrees, ten seconds. Theory: the period by the arithmetic-geometric mean. */
+function pendulum() {
+  const made = hung({ name: 'pendulum', angle: Math.PI / 3, frames: 600, links: [{ mass: DENSITY * LENGTH * WIDTH ** 2, length: LENGTH, width: WIDTH }] });
+  const [{ mass, moments }] = made.links, inertia = moments[2] + mass * (LENGTH / 2) ** 2;
+  let [a, g] = [1, Math.cos(made.angle / 2)];
+  for (let i = 0; i < 8; i++) [a, g] = [(a + g) / 2, Math.sqrt(a * g)];
+  return { ...made, theory: 2 * Math.PI * Math.sqrt(inertia / (mass * made.gravity * LENGTH / 2)) / a };
+}
+
+/** Ten boxes of 0.1 m at 30 degrees, the last a hundred times as heavy, five seconds. */
+function chain() {
+  const links = Array.from({ length: 10 }, (_, i) => ({ mass: i < 9 ? 0.16 : 16, length: 0.1, width: 0.04 }));
+  return hung({ name: 'chain', angle: Math.PI / 6, frames: 300, links });
+}
+
+export const CASES = { beam, spin, pendulum, chain };

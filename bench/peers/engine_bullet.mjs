@@ -1,6 +1,7 @@
 // Bullet, by ammojs-typed. It has the classic soft bodies alone: links whose stiffness is a share from 0 to 1 without a unit.
 import { createRequire } from 'node:module';
 import { FRAME_S, edgesOf } from './cases.mjs';
+import { forHung, rotated, turnOf } from './engine_parts.mjs';
 
 const Ammo = await createRequire(import.meta.url)('ammojs-typed').call({});
 
@@ -58,24 +59,33 @@ function soft(body, setting) {
   };
 }
 
-function pendulum(bar, setting) {
-  const { world, close } = worldOf(bar.gravity);
-  const shape = new Ammo.btBoxShape(new Ammo.btVector3(bar.length / 2, bar.width / 2, bar.width / 2));
-  const inertia = new Ammo.btVector3(...bar.moments), turn = (bar.amplitude - Math.PI / 2) / 2;
-  const at = new Ammo.btTransform(new Ammo.btQuaternion(0, 0, Math.sin(turn), Math.cos(turn)),
-    new Ammo.btVector3(bar.arm * Math.sin(bar.amplitude), -bar.arm * Math.cos(bar.amplitude), 0));
-  const body = new Ammo.btRigidBody(new Ammo.btRigidBodyConstructionInfo(bar.mass, new Ammo.btDefaultMotionState(at), shape, inertia));
+function makeLink({ mass, moments, length, width, start }, angle) {
+  const shape = new Ammo.btBoxShape(new Ammo.btVector3(length / 2, width / 2, width / 2));
+  const at = new Ammo.btTransform(new Ammo.btQuaternion(...turnOf(angle)), new Ammo.btVector3(...start));
+  const body = new Ammo.btRigidBody(new Ammo.btRigidBodyConstructionInfo(mass, new Ammo.btDefaultMotionState(at), shape, new Ammo.btVector3(...moments)));
   body.setDamping(0, 0);
   body.setActivationState(4);
-  world.addRigidBody(body);
-  world.addConstraint(new Ammo.btPoint2PointConstraint(body, new Ammo.btVector3(-bar.arm, 0, 0)), true);
+  return body;
+}
+
+function chain({ links, angle, gravity }, setting) {
+  const { world, close } = worldOf(gravity), made = links.map((link) => makeLink(link, angle));
+  made.forEach((body, i) => {
+    const end = new Ammo.btVector3(-links[i].length / 2, 0, 0);
+    world.addRigidBody(body, 1, 0);
+    const joint = i ? new Ammo.btPoint2PointConstraint(made[i - 1], body, new Ammo.btVector3(links[i - 1].length / 2, 0, 0), end) : new Ammo.btPoint2PointConstraint(body, end);
+    world.addConstraint(joint, true);
+  });
   return {
     step() {
       world.stepSimulation(FRAME_S, setting.steps, FRAME_S / setting.steps);
     },
     close,
-    mass: bar.mass,
-    center: () => numbers(body.getWorldTransform().getOrigin()),
+    mass: links.reduce((sum, { mass }) => sum + mass, 0),
+    poses: () => made.map((body) => {
+      const at = body.getWorldTransform(), turn = at.getRotation();
+      return { center: numbers(at.getOrigin()), along: rotated([turn.x(), turn.y(), turn.z(), turn.w()], [1, 0, 0]) };
+    }),
   };
 }
 
@@ -86,9 +96,9 @@ const settings = [[1, 1], [1, 5], [1, 10], [1, 20], [1, 40], [2, 10], [8, 10], [
 settings.splice(6, 0, FITTED);
 
 export default {
-  name: 'Bullet', package: 'ammojs-typed', soft, pendulum,
+  name: 'Bullet', package: 'ammojs-typed', soft, chain,
   stiffness: { by: FITTED, load: 1, first: 0.7, most: 1 },
-  settings: { beam: settings, spin: settings, pendulum: [1, 2, 4, 8, 16, 32].map((steps) => ({ name: `${steps} steps`, steps, recommended: steps === 1 })) },
+  settings: { beam: settings, spin: settings, ...forHung([1, 2, 4, 8, 16, 32].map((steps) => ({ name: `${steps} steps`, steps, recommended: steps === 1 }))) },
   // Its links become stiffer with each iteration and step, so that its own model is a rigid one in the end: of the beam, the fitted
   // setting stands for it, and of the free bar the finest steps.
   reference: { beam: FITTED, spin: { steps: 64, iterations: 10 } },

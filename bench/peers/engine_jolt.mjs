@@ -2,6 +2,7 @@
 // compliance in SI units. `stiffness` scales the springs and volumes that stand for the material.
 import initialize from 'jolt-physics';
 import { FRAME_S, edgesOf, springStiffness, volumeStiffness } from './cases.mjs';
+import { forHung, turnOf } from './engine_parts.mjs';
 
 const Jolt = await initialize();
 const [STILL, MOVING, LAYERS] = [0, 1, 2];
@@ -21,18 +22,15 @@ function makeWorld() {
 // One for all, since its memory does not come back. A simulation is closed before the next is made.
 const world = makeWorld(), system = world.GetPhysicsSystem(), bodies = system.GetBodyInterface();
 
-/** Adds what was made to the world that has that gravity; gives what removes it. */
-function add(body, gravity, constraint) {
+function setGravity(gravity) {
   const pull = new Jolt.Vec3(0, -gravity, 0);
   system.SetGravity(pull);
   Jolt.destroy(pull);
-  bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
-  if (constraint) system.AddConstraint(constraint);
-  return () => {
-    if (constraint) system.RemoveConstraint(constraint);
-    bodies.RemoveBody(body.GetID());
-    bodies.DestroyBody(body.GetID());
-  };
+}
+
+function remove(body) {
+  bodies.RemoveBody(body.GetID());
+  bodies.DestroyBody(body.GetID());
 }
 
 const numbers = (v) => [v.GetX(), v.GetY(), v.GetZ()];
@@ -58,13 +56,15 @@ function sharedOf(body, stiffness) {
 }
 
 function soft(body, setting) {
+  setGravity(body.gravity);
   const creation = new Jolt.SoftBodyCreationSettings(sharedOf(body, setting.stiffness), new Jolt.RVec3(0, 0, 0), Jolt.Quat.prototype.sIdentity(), MOVING);
   creation.mNumIterations = setting.iterations;
   creation.mLinearDamping = body.massDamping;
   creation.mAllowSleeping = false;
   creation.mUpdatePosition = true;
-  const made = bodies.CreateSoftBody(creation), close = add(made, body.gravity);
+  const made = bodies.CreateSoftBody(creation);
   Jolt.destroy(creation);
+  bodies.AddBody(made.GetID(), Jolt.EActivation_Activate);
   const motion = Jolt.castObject(made.GetMotionProperties(), Jolt.SoftBodyMotionProperties), vertices = motion.GetVertices();
   const read = (get) => {
     const found = new Float64Array(body.points.length);
@@ -72,8 +72,8 @@ function soft(body, setting) {
     return found;
   };
   return {
-    close,
     step: () => world.Step(FRAME_S, 1),
+    close: () => remove(made),
     mass: sumOfInverse(vertices, body.masses.length),
     points() {
       const center = numbers(made.GetCenterOfMassPosition());
@@ -92,31 +92,45 @@ function sumOfInverse(vertices, count) {
   return mass;
 }
 
-function pendulum(bar, setting) {
-  const shape = new Jolt.BoxShape(new Jolt.Vec3(bar.length / 2, bar.width / 2, bar.width / 2), 0);
-  const turn = Jolt.Quat.prototype.sRotation(new Jolt.Vec3(0, 0, 1), bar.amplitude - Math.PI / 2);
-  const start = new Jolt.RVec3(bar.arm * Math.sin(bar.amplitude), -bar.arm * Math.cos(bar.amplitude), 0);
-  const creation = new Jolt.BodyCreationSettings(shape, start, turn, Jolt.EMotionType_Dynamic, MOVING);
+function makeLink({ mass, length, width, start }, angle) {
+  const shape = new Jolt.BoxShape(new Jolt.Vec3(length / 2, width / 2, width / 2), 0);
+  const creation = new Jolt.BodyCreationSettings(shape, new Jolt.RVec3(...start), new Jolt.Quat(...turnOf(angle)), Jolt.EMotionType_Dynamic, MOVING);
   creation.mOverrideMassProperties = Jolt.EOverrideMassProperties_CalculateInertia;
-  creation.mMassPropertiesOverride.mMass = bar.mass;
+  creation.mMassPropertiesOverride.mMass = mass;
   creation.mLinearDamping = creation.mAngularDamping = 0;
   creation.mAllowSleeping = false;
-  const body = bodies.CreateBody(creation), hook = new Jolt.PointConstraintSettings(); // at the origin of the world
-  const close = add(body, bar.gravity, hook.Create(Jolt.Body.prototype.sFixedToWorld, body));
+  const body = bodies.CreateBody(creation);
   Jolt.destroy(creation);
+  bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
+  return body;
+}
+
+function chain({ links, angle, gravity }, setting) {
+  setGravity(gravity);
+  const made = links.map((link) => makeLink(link, angle));
+  const joints = made.map((body, i) => {
+    const joint = new Jolt.PointConstraintSettings(), { start, length } = links[i];
+    const point = [start[0] - Math.sin(angle) * length / 2, start[1] + Math.cos(angle) * length / 2, 0];
+    joint.mPoint1 = joint.mPoint2 = new Jolt.RVec3(...point);
+    return joint.Create(i ? made[i - 1] : Jolt.Body.prototype.sFixedToWorld, body);
+  });
+  joints.forEach((joint) => system.AddConstraint(joint));
   return {
-    close,
     step: () => world.Step(FRAME_S, setting.steps),
-    mass: 1 / body.GetMotionProperties().GetInverseMass(),
-    center: () => numbers(body.GetCenterOfMassPosition()),
+    close() {
+      joints.forEach((joint) => system.RemoveConstraint(joint));
+      made.forEach(remove);
+    },
+    mass: made.reduce((sum, body) => sum + 1 / body.GetMotionProperties().GetInverseMass(), 0),
+    poses: () => made.map((body) => ({ center: numbers(body.GetCenterOfMassPosition()), along: numbers(body.GetRotation().RotateAxisX()) })),
   };
 }
 
 const settings = [1, 2, 5, 10, 20, 40, 80].map((iterations) => ({ name: `${iterations} iterations`, iterations, recommended: iterations === 5 }));
 
 export default {
-  name: 'Jolt', package: 'jolt-physics', soft, pendulum,
+  name: 'Jolt', package: 'jolt-physics', soft, chain,
   stiffness: { by: 'springs', load: 0.1, first: 1 },
-  settings: { beam: settings, spin: settings, pendulum: [1, 2, 4, 8, 16, 32].map((steps) => ({ name: `${steps} steps`, steps, recommended: steps === 1 })) },
+  settings: { beam: settings, spin: settings, ...forHung([1, 2, 4, 8, 16, 32].map((steps) => ({ name: `${steps} steps`, steps, recommended: steps === 1 }))) },
   reference: { beam: 'springs', spin: 'springs' }, // in single precision its finest settings fall too slowly
 };

@@ -5,6 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { load } from 'sbfmt';
 import { FRAME_S } from './cases.mjs';
+import { forHung, rotated, turnOf } from './engine_parts.mjs';
 
 const FAR = 1000; // above the ground, which nothing here touches
 
@@ -35,18 +36,25 @@ ${skinText(body)}
 ${pins}${embeddingText(body)}</level></soft_body></sbf>\n`;
 }
 
-function pendulumText({ mass, moments, arm, length, width, amplitude }) {
-  const [c, s] = [Math.cos(amplitude), Math.sin(amplitude)], half = width / 2;
-  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [k & 1 ? length : 0, k & 2 ? half : -half, k & 4 ? half : -half]);
-  const turned = corners.flatMap(([x, y, z]) => [x * s - y * -c, -x * c + y * s, z]);
-  const turn = (amplitude - Math.PI / 2) / 2;
-  return `<?xml version="1.0" encoding="UTF-8"?>
-<sbf version="1.0"><asset title="pendulum"/>
-<rigid_bodies><rigid_body id="block" mass="1" center="0 0 0" inertia="1 1 1"/>
-<rigid_body id="bar" motion="dynamic" mass="${mass}" center="${list([arm * s, -arm * c, 0])}" inertia="${list(moments)}" inertia_rotation="${list([0, 0, Math.sin(turn), Math.cos(turn)])}" mask="0">
+function linkText({ mass, moments, length, width, start }, index, angle) {
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [length, width, width].map((size, axis) => (k >> axis & 1 ? size : -size) / 2));
+  const turned = corners.flatMap(([x, y, z]) => [start[0] + x * s + y * c, start[1] - x * c + y * s, z]);
+  return `<rigid_body id="link${index}" motion="dynamic" mass="${mass}" center="${list(start)}" inertia="${list(moments)}" inertia_rotation="${list(turnOf(angle))}" mask="0">
 <polygon_mesh target="collision_detection"><positions>${list(turned)}</positions><polygon_sizes>4 4 4 4 4 4</polygon_sizes>
-<polygon_points>0 4 6 2 1 3 7 5 0 1 5 4 2 6 7 3 0 2 3 1 4 5 7 6</polygon_points></polygon_mesh></rigid_body></rigid_bodies>
-<joints><spherical_joint id="hook" body_a="block" body_b="bar"><frame_a position="0 0 0"/><frame_b position="${list([-arm * s, arm * c, 0])}"/></spherical_joint></joints></sbf>\n`;
+<polygon_points>0 4 6 2 1 3 7 5 0 1 5 4 2 6 7 3 0 2 3 1 4 5 7 6</polygon_points></polygon_mesh></rigid_body>`;
+}
+
+/** Each link hangs on the one before it, the first on a block that stays. Frames have the asset's axes at rest. */
+function chainText({ links, angle, name }) {
+  const half = (length) => [Math.sin(angle), -Math.cos(angle), 0].map((x) => x * length / 2);
+  const joints = links.map(({ length }, i) => `<spherical_joint id="joint${i}" body_a="${i ? `link${i - 1}` : 'block'}" body_b="link${i}">
+<frame_a position="${list(i ? half(links[i - 1].length) : [0, 0, 0])}"/><frame_b position="${list(half(length).map((x) => -x))}"/></spherical_joint>`);
+  return `<?xml version="1.0" encoding="UTF-8"?>
+<sbf version="1.0"><asset title="${name}"/>
+<rigid_bodies><rigid_body id="block" mass="1" center="0 0 0" inertia="1 1 1"/>
+${links.map((link, i) => linkText(link, i, angle)).join('\n')}</rigid_bodies>
+<joints>${joints.join('\n')}</joints></sbf>\n`;
 }
 
 function packed(text) {
@@ -104,10 +112,13 @@ function soft(body, setting) {
   };
 }
 
-function pendulum(bar) {
-  const { character, step, close } = stage(pendulumText(bar), bar.gravity, {});
-  const state = () => character.rigidState(1);
-  return { step, close, mass: state().mass, center: () => state().center.map((x, k) => x + character.origin[k]) };
+function chain(hung) {
+  const { character, step, close } = stage(chainText(hung), hung.gravity, {}), start = rotated(turnOf(hung.angle), [1, 0, 0]);
+  const poses = () => hung.links.map((_, i) => {
+    const { center, rotation } = character.rigidState(i + 1);
+    return { center: center.map((x, k) => x + character.origin[k]), along: rotated(rotation, start) };
+  });
+  return { step, close, poses, mass: hung.links.reduce((sum, _, i) => sum + character.rigidState(i + 1).mass, 0) };
 }
 
 const ours = (scheme, ...counts) => counts.map((substeps) => ({ name: `${scheme}, ${substeps} substeps`, scheme, substeps }));
@@ -116,7 +127,7 @@ const settings = [chosen, ...ours('symplectic', 8, 16, 32, 64, 128), ...ours('po
 const [finest] = ours('symplectic', 512);
 
 export default {
-  name: 'sbfmt', package: 'sbfmt', soft, pendulum,
-  settings: { beam: settings, spin: settings, pendulum: [{ name: 'as the package has it', recommended: true }] },
+  name: 'sbfmt', package: 'sbfmt', soft, chain,
+  settings: { beam: settings, spin: settings, ...forHung([{ name: 'as the package has it', recommended: true }]) },
   reference: { beam: finest, spin: finest },
 };

@@ -32,7 +32,7 @@ function stiffnessMatrix(body, size, place) {
 }
 
 /** x with matrix . x = b, the matrix positive definite; both are overwritten. */
-function solve(matrix, b) {
+export function solve(matrix, b) {
   const n = b.length;
   for (let i = 0; i < n; i++)
     for (let row = i + 1; row < n; row++) {

@@ -68,6 +68,17 @@ export function rootMeanSquare(points, others) {
 export const relative = (value, of) => Math.abs(value / of - 1);
 export const change = (now, before) => norm(now.map((x, k) => x - before[k])) / norm(before);
 
+/** The widest gap of a joint: between the ends of two links, or of the first and the origin. */
+export function jointGap({ links }, poses) {
+  let [gap, before] = [0, [0, 0, 0]];
+  poses.forEach(({ center, along }, i) => {
+    const half = along.map((x) => x * links[i].length / 2);
+    gap = Math.max(gap, norm(center.map((x, k) => x - half[k] - before[k])));
+    before = center.map((x, k) => x + half[k]);
+  });
+  return gap;
+}
+
 /** The last angle at which a swing turned back, by a parabola through the frames around it. */
 export function lastTurn(angles) {
   let i = angles.length - 2;

@@ -1,12 +1,13 @@
 // One engine on every case, as CSV: node peers.mjs ENGINE [--quick]. ENGINE: sbfmt, jolt, mujoco, bullet, rapier. --quick measures its
 // recommended settings once. What the columns mean stands in bench/README.md.
 import { readFileSync } from 'node:fs';
-import { CASES, exactPendulum, FRAME_S } from './cases.mjs';
-import { checkPendulum, checkSoft, fittedStiffness } from './setup.mjs';
+import { CASES, FRAME_S } from './cases.mjs';
+import { exactPath } from './exact_chain.mjs';
+import { checkHung, checkSoft, fittedStiffness } from './setup.mjs';
 import * as measures from './measures.mjs';
 import { springModel } from './spring_model.mjs';
 
-const FAR_LENGTHS = 10, ROUNDS = 5, SLOW_S = 2, SLOW_ROUNDS = 3, ENOUGH_S = 0.1, MOST_RUNS = 20;
+const FAR_LENGTHS = 10, ROUNDS = 5, SLOW_S = 0.5, SLOW_ROUNDS = 3, ENOUGH_S = 0.1, MOST_RUNS = 20;
 const [engineName, ...options] = process.argv.slice(2), quick = options.includes('--quick');
 const { default: engine } = await import(`./engine_${engineName}.mjs`);
 const { version } = JSON.parse(readFileSync(new URL(`node_modules/${engine.package}/package.json`, import.meta.url)));
@@ -71,30 +72,31 @@ function softRow(body, simulation, reference, setting) {
 
 // ---- Rigid bodies ----
 
-function pendulumRow(bar, simulation, exact) {
+function hungRow(hung, simulation, exact) {
   const angles = [], path = [];
-  const exploded = watch(simulation, bar.frames, () => {
-    const center = simulation.center();
+  let gap = 0;
+  const exploded = watch(simulation, hung.frames, () => {
+    const poses = simulation.poses(), { center } = poses.at(-1);
     angles.push(Math.atan2(center[0], -center[1]));
     path.push(center);
-    return !(Math.hypot(...center) < 2 * bar.arm);
+    gap = Math.max(gap, measures.jointGap(hung, poses));
+    return !(Math.hypot(...center) < 2 * hung.length);
   });
   simulation.close();
   if (exploded) return { exploded };
-  return {
-    own: measures.rootMeanSquare(path.flat(), exact.flat()) / bar.arm,
-    theory: measures.relative(measures.periodOf(angles, FRAME_S), bar.theory),
-    energyDrift: (1 - Math.cos(measures.lastTurn(angles))) / (1 - Math.cos(bar.amplitude)) - 1,
-  };
+  const found = { own: measures.rootMeanSquare(path.flat(), exact.flat()) / hung.length, gap };
+  if (!hung.theory) return found;
+  const energyDrift = (1 - Math.cos(measures.lastTurn(angles))) / (1 - Math.cos(hung.angle)) - 1;
+  return { ...found, theory: measures.relative(measures.periodOf(angles, FRAME_S), hung.theory), energyDrift };
 }
 
 // ---- Rows ----
 
-const COLUMNS = 'case,engine,version,setting,recommended,us_per_simulated_second,error_own,error_continuum,energy_drift,momentum_drift,least_volume,exploded_at_frame,note';
+const COLUMNS = 'case,engine,version,setting,recommended,us_per_simulated_second,error_own,error_continuum,energy_drift,momentum_drift,least_volume,joint_gap_m,exploded_at_frame,note';
 const text = (x, digits = 4) => (x === undefined ? '' : Number.isFinite(x) ? String(+x.toPrecision(digits)) : 'nan');
 
 function print(name, setting, row, note = '') {
-  const numbers = [row.us === undefined ? '' : Math.round(row.us), ...[row.own, row.theory, row.energyDrift, row.momentumDrift, row.leastVolume].map((x) => text(x)), row.exploded || ''];
+  const numbers = [row.us === undefined ? '' : Math.round(row.us), ...[row.own, row.theory, row.energyDrift, row.momentumDrift, row.leastVolume, row.gap].map((x) => text(x)), row.exploded || ''];
   console.log([name, engine.name, version, `"${setting?.name ?? ''}"`, setting?.recommended ? 'yes' : '', ...numbers, `"${note}"`].join(','));
 }
 
@@ -145,7 +147,9 @@ function measureSoft() {
 console.log(COLUMNS);
 if (engine.soft) measureSoft();
 else for (const name of ['beam', 'spin']) print(name, null, {}, 'it has no soft bodies');
-const bar = CASES.pendulum(), exact = exactPendulum(bar);
-checkPendulum(engine, bar);
-measureCase('pendulum', (setting) => engine.pendulum(bar, setting), (simulation) => pendulumRow(bar, simulation, exact));
+for (const name of ['pendulum', 'chain']) {
+  const hung = CASES[name](), exact = exactPath(hung);
+  checkHung(engine, hung);
+  measureCase(name, (setting) => engine.chain(hung, setting), (simulation) => hungRow(hung, simulation, exact));
+}
 process.exit(0); // Jolt's threads and Emscripten's would keep it

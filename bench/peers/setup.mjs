@@ -1,10 +1,11 @@
 // Whether an engine was given the same case as the others, and the one number that makes its stiffness the same where it has none in
 // SI units, or where these give another answer. Throws where something is off by more than a ten-thousandth.
-import { CASES, FRAME_S, exactPendulum, signedVolume } from './cases.mjs';
+import { CASES, FRAME_S, signedVolume } from './cases.mjs';
+import { exactPath } from './exact_chain.mjs';
 import { linearRest } from './linear_elements.mjs';
 import { springModel } from './spring_model.mjs';
 
-const TOLERANCE = 1e-4, SMALL = 0.1; // of the weight, where strains are small enough for linear elasticity
+const TOLERANCE = 1e-4, FALL_TOLERANCE = 5e-3, SMALL = 0.1; // of the weight, where strains are small enough for linear elasticity
 
 function expect(engine, what, found, wanted, tolerance = TOLERANCE) {
   if (!(Math.abs(found - wanted) <= tolerance * Math.abs(wanted))) throw new Error(`${engine.name}: ${what} is ${found}, not ${wanted}`);
@@ -73,12 +74,13 @@ export function checkSoft(engine, stiffness) {
   expect(engine, 'the sag under a small load', sagUnder(light, simulation), light.reading(linearRest(light)));
 }
 
-/** Mass and moments by how far it falls in a fifth of a second in its finest steps, within what these are off themselves. */
-export function checkPendulum(engine, bar) {
-  const simulation = engine.pendulum(bar, engine.settings.pendulum.at(-1)), frames = 12, fallen = ([x, y]) => bar.amplitude - Math.atan2(x, -y);
-  expect(engine, 'the mass', simulation.mass, bar.mass);
-  expect(engine, 'where the bar starts', simulation.center()[0], bar.arm * Math.sin(bar.amplitude));
+/** Masses and moments by how far the last link falls in a fifth of a second in the finest steps, within what these are off themselves. */
+export function checkHung(engine, hung) {
+  const simulation = engine.chain(hung, engine.settings[hung.name].at(-1)), frames = 12, last = () => simulation.poses().at(-1).center;
+  const fallen = ([x, y]) => hung.angle - Math.atan2(x, -y);
+  expect(engine, 'the mass', simulation.mass, hung.links.reduce((sum, { mass }) => sum + mass, 0));
+  expect(engine, 'where the last link starts', last()[0], hung.links.at(-1).start[0]);
   for (let i = 0; i < frames; i++) simulation.step();
-  expect(engine, 'the angle that it falls', fallen(simulation.center()), fallen(exactPendulum({ ...bar, frames }).at(-1)), 5e-3);
+  expect(engine, 'the angle that it falls', fallen(last()), fallen(exactPath({ ...hung, frames }).at(-1)), FALL_TOLERANCE);
   simulation.close();
 }
