@@ -16,14 +16,14 @@ results = "bench/results/xeon-2-cores/peers.csv"
 
 # Settings that a line joins: an engine's, whose names begin or end with this.
 array engines[16] = ["sbfmt", "sbfmt", "sbfmt", "sbfmt", "sbfmt", "Jolt", "Jolt", "MuJoCo", "MuJoCo", "MuJoCo", "MuJoCo", "Bullet", "Bullet", "Bullet", "Rapier", "Rapier"]
-array kinds[16] = ["automatic", "symplectic", "position_based", "block_descent", "as the package has it", "iterations", "steps", "discrete", "Euler", "RK4", "implicitfast", "1 steps, ", ", 10 iterations", " steps", "impulse", "multibody"]
+array kinds[16] = ["automatic", "symplectic", "position_based", "block_descent", "as the package has it", "iterations", "steps", "discrete", "Euler", "RK4", "implicitfast", "1 steps of ", " of 10 iterations", " steps", "impulse", "multibody"]
 array shapes[16] = [7, 5, 9, 13, 7, 7, 7, 7, 5, 9, 7, 7, 5, 7, 7, 5]
 color(engine) = engine eq "sbfmt" ? "#d55e00" : engine eq "Jolt" ? "#0072b2" : engine eq "MuJoCo" ? "#009e73" : engine eq "Bullet" ? "#cc79a7" : "#555555" # of Okabe and Ito
 begins(name, kind) = strlen(name) >= strlen(kind) && name[1:strlen(kind)] eq kind
 ends(name, kind) = strlen(name) >= strlen(kind) && name[strlen(name) - strlen(kind) + 1:strlen(name)] eq kind
 in_series(i) = strcol(1) eq which && strcol(2) eq engines[i] && (begins(strcol(4), kinds[i]) || ends(strcol(4), kinds[i]))
 is_drawn(i) = in_series(i) && strlen(strcol(6)) && strlen(strcol(7))
-title_of(i) = engines[i].", ".(kinds[i] eq ", 10 iterations" ? "10 iterations, steps" : kinds[i] eq "1 steps, " ? "1 step, iterations" : kinds[i] eq " steps" ? "steps" : kinds[i])
+title_of(i) = engines[i].", ".(kinds[i] eq " of 10 iterations" ? "10 iterations, steps" : kinds[i] eq "1 steps of " ? "1 step, iterations" : kinds[i] eq " steps" ? "steps" : kinds[i])
 
 do for [which in "beam spin pendulum chain"] {
   set output "docs/media/peers-".which.".svg"

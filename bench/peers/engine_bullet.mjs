@@ -90,9 +90,9 @@ function chain({ links, angle, gravity }, setting) {
 }
 
 // The cheapest of these settings that holds the beam up as far as its material does.
-const FITTED = { name: '4 steps, 10 iterations', steps: 4, iterations: 10, fittedOn: 'beam' };
+const FITTED = { name: '4 steps of 10 iterations', steps: 4, iterations: 10, fittedOn: 'beam' };
 const settings = [[1, 1], [1, 5], [1, 10], [1, 20], [1, 40], [2, 10], [8, 10], [16, 10]].map(([steps, iterations]) => (
-  { name: `${steps} steps, ${iterations} iterations`, steps, iterations, recommended: steps === 1 && iterations === 10 }));
+  { name: `${steps} steps of ${iterations} iterations`, steps, iterations, recommended: steps === 1 && iterations === 10 }));
 settings.splice(6, 0, FITTED);
 
 export default {

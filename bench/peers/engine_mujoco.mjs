@@ -75,7 +75,7 @@ function chain({ links, angle, gravity }, setting) {
   };
 }
 
-const by = (integrator, recommended, ...counts) => counts.map((steps) => ({ name: `${integrator}, ${steps} steps`, integrator, steps, recommended: steps === recommended }));
+const by = (integrator, recommended, ...counts) => counts.map((steps) => ({ name: `${integrator} ${steps} steps`, integrator, steps, recommended: steps === recommended }));
 // `discrete` integrates a flex implicitly; 8 steps a frame are its default step of 2 ms.
 const settings = [...by('discrete', 8, 1, 2, 4, 8, 16), ...by('Euler', 0, 8, 16, 32, 64), ...by('RK4', 0, 16, 32)];
 const [finest] = by('RK4', 0, 64);

@@ -35,7 +35,7 @@ function chain({ links, angle, gravity }, setting) {
   };
 }
 
-const by = (kind, ...counts) => counts.map((steps) => ({ name: `${kind} joint, ${steps} steps`, multibody: kind === 'multibody', steps, recommended: kind === 'impulse' && steps === 1 }));
+const by = (kind, ...counts) => counts.map((steps) => ({ name: `${kind} joint ${steps} steps`, multibody: kind === 'multibody', steps, recommended: kind === 'impulse' && steps === 1 }));
 
 export default {
   name: 'Rapier', package: '@dimforge/rapier3d-compat', chain,

@@ -121,7 +121,7 @@ function chain(hung) {
   return { step, close, poses, mass: hung.links.reduce((sum, _, i) => sum + character.rigidState(i + 1).mass, 0) };
 }
 
-const ours = (scheme, ...counts) => counts.map((substeps) => ({ name: `${scheme}, ${substeps} substeps`, scheme, substeps }));
+const ours = (scheme, ...counts) => counts.map((substeps) => ({ name: `${scheme} ${substeps} substeps`, scheme, substeps }));
 const chosen = { name: 'automatic', scheme: 'automatic', substeps: 0, recommended: true };
 const settings = [chosen, ...ours('symplectic', 8, 16, 32, 64, 128), ...ours('position_based', 8, 16, 32, 64, 128), ...ours('block_descent', 5, 10, 20)];
 const [finest] = ours('symplectic', 512);
