@@ -46,7 +46,7 @@ START_TEST(walkers_are_moved_onto_the_ground)
 END_TEST
 
 /* Where they were, their positions had been rounded already. */
-START_TEST(who_comes_from_too_far_is_told)
+START_TEST(a_mesh_too_far_from_the_origin_is_reported)
 {
   const double far = _i < 3 ? 100 : 1e6, x = _i % 3 == 0 ? far : 0, y = _i % 3 == 1 ? far : 0;
   sbfi_scene scene;
@@ -187,7 +187,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, walkers_are_moved_onto_the_ground);
   tcase_add_test(tests, who_stands_stays);
-  tcase_add_loop_test(tests, who_comes_from_too_far_is_told, 0, 6);
+  tcase_add_loop_test(tests, a_mesh_too_far_from_the_origin_is_reported, 0, 6);
   tcase_add_test(tests, what_does_not_walk_stays);
   tcase_add_test(tests, clips_go_along);
   tcase_add_test(tests, who_stands_beside_the_origin_is_moved_there);

@@ -80,7 +80,7 @@ START_TEST(unused_vertices_go_with_those_that_follow)
 END_TEST
 
 /* They would pass for the size of the character. */
-START_TEST(unused_vertices_apart_from_all_others_are_left_out_and_told)
+START_TEST(unused_vertices_far_from_all_others_are_left_out_and_reported)
 {
   sbfi_scene scene;
   read_text(&scene, "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 0 0\nv 1.5 0 0\nf 1 2 3\n");
@@ -375,7 +375,7 @@ static Suite *obj_suite(void) {
   tcase_add_test(tests, groups_divide_where_there_is_no_object);
   tcase_add_test(tests, unused_vertices_stay_with_their_object);
   tcase_add_test(tests, unused_vertices_go_with_those_that_follow);
-  tcase_add_test(tests, unused_vertices_apart_from_all_others_are_left_out_and_told);
+  tcase_add_test(tests, unused_vertices_far_from_all_others_are_left_out_and_reported);
   tcase_add_test(tests, vertices_of_nobody_are_left_out_and_told);
   tcase_add_test(tests, each_mesh_has_its_own_normals_and_uvs);
   tcase_add_test(tests, materials_come_from_the_library_beside_the_file);
