@@ -126,66 +126,59 @@ static bool join_polygons(const joining *j, sbfi_scene_mesh *to) {
   return true;
 }
 
-static bool join_normals(const joining *j, sbfi_scene_mesh *to) {
-  uint32_t total = 0, count = 0, corner = 0;
-  for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].normals.count : 0;
-  sbf_vec3 *normals = allocate(j->arena, total, sizeof *normals);
-  int32_t *corners = allocate(j->arena, to->corner_count, sizeof *corners);
-  if (!normals || !corners) return false;
-  for (uint32_t m = 0; m < j->mesh_count; m++) {
-    const sbfi_scene_mesh *from = &j->meshes[m];
-    if (!is_of(j, m)) continue;
-    copy_corners(from->normals.corner_index, from->corner_count, count, corners + corner);
-    if (from->normals.count) memcpy(normals + count, from->normals.at, from->normals.count * sizeof *normals);
-    count += from->normals.count;
-    corner += from->corner_count;
-  }
-  to->normals.at = normals;
-  to->normals.count = total;
-  to->normals.corner_index = total ? corners : NULL;
-  return true;
+/* A list of values that corners index. */
+typedef struct corner_values {
+  uint32_t count;
+  const void *at;
+  const int32_t *corners; /* (corner_count) index or SBF_NONE; NULL: no values */
+} corner_values;
+
+static corner_values normals_of(const sbfi_scene_mesh *mesh) {
+  return (corner_values){mesh->normals.count, mesh->normals.at, mesh->normals.corner_index};
 }
 
-static bool join_colors(const joining *j, sbfi_scene_mesh *to) {
-  uint32_t total = 0, count = 0, corner = 0;
-  for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].colors.count : 0;
-  sbf_vec4 *colors = allocate(j->arena, total, sizeof *colors);
-  int32_t *corners = allocate(j->arena, to->corner_count, sizeof *corners);
-  if (!colors || !corners) return false;
-  for (uint32_t m = 0; m < j->mesh_count; m++) {
-    const sbfi_scene_mesh *from = &j->meshes[m];
-    if (!is_of(j, m)) continue;
-    copy_corners(from->colors.corner_index, from->corner_count, count, corners + corner);
-    if (from->colors.count) memcpy(colors + count, from->colors.at, from->colors.count * sizeof *colors);
-    count += from->colors.count;
-    corner += from->corner_count;
-  }
-  to->colors.at = colors;
-  to->colors.count = total;
-  to->colors.corner_index = total ? corners : NULL;
-  return true;
+static corner_values colors_of(const sbfi_scene_mesh *mesh) {
+  return (corner_values){mesh->colors.count, mesh->colors.at, mesh->colors.corner_index};
 }
 
 /* An OBJ has at most one set. */
-static bool join_uvs(const joining *j, sbfi_scene_mesh *to) {
+static corner_values uvs_of(const sbfi_scene_mesh *mesh) {
+  if (!mesh->uv_set_count) return (corner_values){0, NULL, NULL};
+  return (corner_values){mesh->uv_sets[0].count, mesh->uv_sets[0].at, mesh->uv_sets[0].corner};
+}
+
+/* Appends the values of all pieces; `size` is that of a value. */
+static bool join_values(const joining *j, uint32_t corner_count,
+    corner_values (*values_of)(const sbfi_scene_mesh *mesh), size_t size, corner_values *joined) {
   uint32_t total = 0, count = 0, corner = 0;
-  for (uint32_t m = 0; m < j->mesh_count; m++)
-    total += is_of(j, m) && j->meshes[m].uv_set_count ? j->meshes[m].uv_sets[0].count : 0;
-  sbfi_scene_uvs *set = allocate(j->arena, 1, sizeof *set);
-  sbf_vec2 *uvs = allocate(j->arena, total, sizeof *uvs);
-  int32_t *corners = allocate(j->arena, to->corner_count, sizeof *corners);
-  if (!set || !uvs || !corners) return false;
+  for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? values_of(&j->meshes[m]).count : 0;
+  char *values = allocate(j->arena, total, size);
+  int32_t *corners = allocate(j->arena, corner_count, sizeof *corners);
+  if (!values || !corners) return false;
   for (uint32_t m = 0; m < j->mesh_count; m++) {
-    const sbfi_scene_uvs *from = j->meshes[m].uv_set_count ? j->meshes[m].uv_sets : NULL;
     if (!is_of(j, m)) continue;
-    copy_corners(from ? from->corner : NULL, j->meshes[m].corner_count, count, corners + corner);
-    if (from && from->count) memcpy(uvs + count, from->at, from->count * sizeof *uvs);
-    count += from ? from->count : 0;
+    corner_values from = values_of(&j->meshes[m]);
+    copy_corners(from.corners, j->meshes[m].corner_count, count, corners + corner);
+    if (from.count) memcpy(values + count * size, from.at, from.count * size);
+    count += from.count;
     corner += j->meshes[m].corner_count;
   }
-  *set = (sbfi_scene_uvs){"", total, uvs, corners};
+  *joined = (corner_values){total, values, total ? corners : NULL};
+  return true;
+}
+
+static bool join_attributes(const joining *j, sbfi_scene_mesh *to) {
+  corner_values normals, colors, uvs;
+  sbfi_scene_uvs *set = allocate(j->arena, 1, sizeof *set);
+  if (!set || !join_values(j, to->corner_count, normals_of, sizeof(sbf_vec3), &normals) ||
+      !join_values(j, to->corner_count, colors_of, sizeof(sbf_vec4), &colors) ||
+      !join_values(j, to->corner_count, uvs_of, sizeof(sbf_vec2), &uvs))
+    return false;
+  to->normals = (sbfi_scene_normals){normals.count, normals.at, normals.corners};
+  to->colors = (sbfi_scene_colors){colors.count, colors.at, colors.corners};
+  *set = (sbfi_scene_uvs){"", uvs.count, uvs.at, uvs.corners};
   to->uv_sets = set;
-  to->uv_set_count = total ? 1 : 0;
+  to->uv_set_count = uvs.count ? 1 : 0;
   return true;
 }
 
@@ -201,6 +194,5 @@ bool sbfi_join_meshes(sbfi_arena *arena, const uint32_t *sets, uint32_t root, co
     to->polygon_count += j->meshes[m].polygon_count;
     to->corner_count += j->meshes[m].corner_count;
   }
-  return join_points(j, to) && join_polygons(j, to) && join_normals(j, to) && join_colors(j, to) &&
-         join_uvs(j, to);
+  return join_points(j, to) && join_polygons(j, to) && join_attributes(j, to);
 }
