@@ -281,6 +281,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_FAR", SBF_CODE_IMPORT_FAR, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "An object is so far from the origin that single precision rounds its shape: move it to the origin in its program."},
   {"IMPORT_TETRAHEDRA_TURNED", SBF_CODE_IMPORT_TETRAHEDRA_TURNED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra were inverted and their points were reordered: no action is needed."},
   {"IMPORT_TETRAHEDRA_FLAT", SBF_CODE_IMPORT_TETRAHEDRA_FLAT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra without volume were left out: mesh the volume again if parts are missing."},
+  {"IMPORT_SPRING", SBF_CODE_IMPORT_SPRING, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A spring bone, a collider or a humanoid bone of a VRM file is malformed: correct it in the program that wrote the file."},
   {"IMPORT_WEIGHTS_IMPOSSIBLE", SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Skin weights cannot be computed: use a mesh with a surface, and a rig with bones that deform it."},
   {"IMPORT_RIG_OUTSIDE", SBF_CODE_IMPORT_RIG_OUTSIDE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Less than 60 % of the rig's bone length is inside the mesh near some of its surface, or less than 85 % after its limbs were rotated: use the rig of this mesh in its pose, or state --unit, --up and --forward."},
   {"IMPORT_WEIGHTS_COMPUTED", SBF_CODE_IMPORT_WEIGHTS_COMPUTED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The rig has no mesh with weights, so weights were computed from its bones: choose another source with --weights."},

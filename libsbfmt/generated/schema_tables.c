@@ -24,6 +24,7 @@ static const char *const fin_motion_values[] = {"flap", "trail", "steer"};
 static const char *const chain_kind_values[] = {"lag", "distance"};
 static const char *const follower_channel_values[] = {"rotation", "position", "both", "squash", "weight"};
 static const char *const bone_axis_values[] = {"x", "y", "z"};
+static const char *const chain_collider_shape_values[] = {"sphere", "capsule", "plane"};
 static const char *const track_property_values[] = {"translation", "rotation", "scale"};
 static const char *const interpolation_values[] = {"linear", "step", "cubic"};
 static const char *const field_kind_values[] = {"uniform", "radial", "vortex", "drag"};
@@ -652,6 +653,21 @@ static const sbfi_field gait_fields[] = {
 };
 static const sbfi_element gait_element = {"gait", "gait", sizeof(sbf_gait), SBFI_KIND('G', 'A', 'I', 'T'), 25, gait_fields, NULL};
 
+static const sbfi_length chain_spring_stiffness_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_chain, bones)}}, "parent.bones"}};
+static const sbfi_length chain_spring_drag_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_chain, bones)}}, "parent.bones"}};
+static const sbfi_length chain_spring_gravity_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_chain, bones)}}, "parent.bones"}};
+static const sbfi_length chain_spring_radius_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_chain, bones)}}, "parent.bones"}};
+static const sbfi_length chain_spring_colliders_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, chain_colliders)}}, "asset.chain_colliders"};
+static const sbfi_field chain_spring_fields[] = {
+  {.name = "stiffness", .type = SBFI_LIST, .number = 1, .since_minor = 0, .offset = offsetof(sbf_chain_spring, stiffness), .width = 1, .unit = "m/s^2", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = chain_spring_stiffness_lengths},
+  {.name = "drag", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_chain_spring, drag), .width = 1, .unit = "1/s", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = chain_spring_drag_lengths},
+  {.name = "gravity", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_chain_spring, gravity), .width = 3, .unit = "m/s^2", .item = SBFI_ITEM_F32, .length_count = 3, .lengths = chain_spring_gravity_lengths},
+  {.name = "radius", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_chain_spring, radius), .width = 1, .unit = "m", .item = SBFI_ITEM_F32, .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true, .length_count = 3, .lengths = chain_spring_radius_lengths},
+  {.name = "center", .type = SBFI_REF, .number = 5, .since_minor = 0, .offset = offsetof(sbf_chain_spring, center), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "colliders", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_chain_spring, colliders), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &chain_spring_colliders_index},
+};
+static const sbfi_element chain_spring_element = {"chain_spring", "chain_spring", sizeof(sbf_chain_spring), 0, 6, chain_spring_fields, NULL};
+
 static const sbfi_length chain_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_length chain_spacing_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_chain, bones)}}, "bones"}};
 static const sbfi_field chain_fields[] = {
@@ -663,8 +679,9 @@ static const sbfi_field chain_fields[] = {
   {.name = "angle_limit", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_chain, angle_limit), .width = 1, .unit = "rad", .range.is_stated = true, .range.min = 0.0, .range.max = 3.15, .range.min_open = false, .range.max_open = false, .initial.scalars = {1.0f}},
   {.name = "damping", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_chain, damping), .width = 1, .unit = "1/s", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
   {.name = "proposed", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_chain, proposed), .width = 1, .unit = "", .initial.integer = 0},
+  {.name = "spring", .type = SBFI_OPTIONAL, .number = 9, .since_minor = 4, .offset = offsetof(sbf_chain, spring), .width = 1, .unit = "", .element = &chain_spring_element, .tag.xml = "chain_spring"},
 };
-static const sbfi_element chain_element = {"chain", "chain", sizeof(sbf_chain), 0, 8, chain_fields, NULL};
+static const sbfi_element chain_element = {"chain", "chain", sizeof(sbf_chain), 0, 9, chain_fields, NULL};
 
 static const sbfi_field follower_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_follower, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
@@ -781,6 +798,19 @@ static const sbfi_field section_recipe_fields[] = {
 };
 static const sbfi_element section_recipe_element = {"section_recipe", "section_recipe", sizeof(sbf_section_recipe), 0, 6, section_recipe_fields, NULL};
 
+static const sbfi_field chain_collider_fields[] = {
+  {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_chain_collider, id), .width = 1, .unit = "", .required = true, .initial.text = ""},
+  {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_chain_collider, name), .width = 1, .unit = "", .initial.text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_chain_collider, bone), .width = 1, .unit = "", .required = true, .reference.offset = offsetof(sbf_asset, bones), .reference.name = "bones"},
+  {.name = "shape", .type = SBFI_ENUM, .number = 4, .since_minor = 0, .offset = offsetof(sbf_chain_collider, shape), .width = 1, .unit = "", .required = true, .words.at = chain_collider_shape_values, .words.count = 3},
+  {.name = "position", .type = SBFI_VEC3, .number = 5, .since_minor = 0, .offset = offsetof(sbf_chain_collider, position), .width = 3, .unit = "m"},
+  {.name = "end", .type = SBFI_VEC3, .number = 6, .since_minor = 0, .offset = offsetof(sbf_chain_collider, end), .width = 3, .unit = "m"},
+  {.name = "normal", .type = SBFI_VEC3, .number = 7, .since_minor = 0, .offset = offsetof(sbf_chain_collider, normal), .width = 3, .unit = "", .initial.scalars = {0.0f, 1.0f, 0.0f}},
+  {.name = "radius", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_chain_collider, radius), .width = 1, .unit = "m", .range.is_stated = true, .range.min = 0.0, .range.max = INFINITY, .range.min_open = false, .range.max_open = true},
+  {.name = "inside", .type = SBFI_BOOL, .number = 9, .since_minor = 0, .offset = offsetof(sbf_chain_collider, inside), .width = 1, .unit = "", .initial.integer = 0},
+};
+static const sbfi_element chain_collider_element = {"chain_collider", "chain_collider", sizeof(sbf_chain_collider), 0, 9, chain_collider_fields, NULL};
+
 static const sbfi_field asset_fields[] = {
   {.name = "version", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_asset, version), .width = 1, .unit = "", .required = true, .initial.text = "1.0"},
   {.name = "info", .type = SBFI_ONE, .number = 2, .since_minor = 0, .offset = offsetof(sbf_asset, info), .width = 1, .unit = "", .element = &info_element, .tag.xml = "asset"},
@@ -805,8 +835,9 @@ static const sbfi_field asset_fields[] = {
   {.name = "relaxation", .type = SBFI_ONE, .number = 21, .since_minor = 0, .offset = offsetof(sbf_asset, relaxation), .width = 1, .unit = "", .element = &relaxation_element, .tag.xml = "relaxation"},
   {.name = "extensions", .type = SBFI_MANY, .number = 22, .since_minor = 0, .offset = offsetof(sbf_asset, extensions), .width = 1, .unit = "", .element = &extension_element, .tag.xml = "extension", .tag.wrapper = "extensions"},
   {.name = "section_recipes", .type = SBFI_MANY, .number = 23, .since_minor = 0, .offset = offsetof(sbf_asset, section_recipes), .width = 1, .unit = "", .element = &section_recipe_element, .tag.xml = "section_recipe", .tag.wrapper = "section_recipes"},
+  {.name = "chain_colliders", .type = SBFI_MANY, .number = 24, .since_minor = 4, .offset = offsetof(sbf_asset, chain_colliders), .width = 1, .unit = "", .element = &chain_collider_element, .tag.xml = "chain_collider", .tag.wrapper = "chain_colliders"},
 };
-const sbfi_element sbfi_asset_element = {"asset", "sbf", sizeof(sbf_asset), SBFI_KIND('R', 'O', 'O', 'T'), 23, asset_fields, NULL};
+const sbfi_element sbfi_asset_element = {"asset", "sbf", sizeof(sbf_asset), SBFI_KIND('R', 'O', 'O', 'T'), 24, asset_fields, NULL};
 
 void sbf_author_init(sbf_author *author) { sbfi_element_init(&author_element, author); }
 void sbf_source_init(sbf_source *source) { sbfi_element_init(&source_element, source); }
@@ -856,6 +887,7 @@ void sbf_wheel_init(sbf_wheel *wheel) { sbfi_element_init(&wheel_element, wheel)
 void sbf_tread_init(sbf_tread *tread) { sbfi_element_init(&tread_element, tread); }
 void sbf_medium_init(sbf_medium *medium) { sbfi_element_init(&medium_element, medium); }
 void sbf_gait_init(sbf_gait *gait) { sbfi_element_init(&gait_element, gait); }
+void sbf_chain_spring_init(sbf_chain_spring *chain_spring) { sbfi_element_init(&chain_spring_element, chain_spring); }
 void sbf_chain_init(sbf_chain *chain) { sbfi_element_init(&chain_element, chain); }
 void sbf_follower_init(sbf_follower *follower) { sbfi_element_init(&follower_element, follower); }
 void sbf_track_init(sbf_track *track) { sbfi_element_init(&track_element, track); }
@@ -869,6 +901,7 @@ void sbf_environment_init(sbf_environment *environment) { sbfi_element_init(&env
 void sbf_relaxation_init(sbf_relaxation *relaxation) { sbfi_element_init(&relaxation_element, relaxation); }
 void sbf_extension_init(sbf_extension *extension) { sbfi_element_init(&extension_element, extension); }
 void sbf_section_recipe_init(sbf_section_recipe *section_recipe) { sbfi_element_init(&section_recipe_element, section_recipe); }
+void sbf_chain_collider_init(sbf_chain_collider *chain_collider) { sbfi_element_init(&chain_collider_element, chain_collider); }
 void sbf_asset_init(sbf_asset *asset) { sbfi_element_init(&sbfi_asset_element, asset); }
 
 const char *sbf_alpha_mode_name(sbf_alpha_mode value) {
@@ -945,6 +978,10 @@ const char *sbf_follower_channel_name(sbf_follower_channel value) {
 
 const char *sbf_bone_axis_name(sbf_bone_axis value) {
   return (unsigned)value < 3u ? bone_axis_values[value] : "?";
+}
+
+const char *sbf_chain_collider_shape_name(sbf_chain_collider_shape value) {
+  return (unsigned)value < 3u ? chain_collider_shape_values[value] : "?";
 }
 
 const char *sbf_track_property_name(sbf_track_property value) {

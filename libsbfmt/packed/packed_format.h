@@ -9,7 +9,7 @@
 
 enum {
   SBFI_PACKED_MAJOR = 1, /* newest version that this library fully supports */
-  SBFI_PACKED_MINOR = 3,
+  SBFI_PACKED_MINOR = 4,
   SBFI_PACKED_HEADER_SIZE = 64,
   SBFI_PACKED_ENTRY_SIZE = 64,
   SBFI_PACKED_ALIGN = 64,       /* alignment of chunks */

@@ -64,6 +64,7 @@ void stream_node(
   stream_string(s, name);
   stream_u32(s, (uint32_t)parent);
   stream_u32(s, kind);
+  stream_u32(s, UINT32_MAX);
   stream_translation(s, x, y, z);
   stream_u32(s, 0);
 }
@@ -73,6 +74,7 @@ void stream_limited_node(stream_builder *s, const char *name, int32_t parent, ui
   stream_string(s, name);
   stream_u32(s, (uint32_t)parent);
   stream_u32(s, 0);
+  stream_u32(s, UINT32_MAX);
   stream_translation(s, 0, 0, 0);
   stream_u32(s, stated);
   stream_f32s(s, bounds, bound_count);

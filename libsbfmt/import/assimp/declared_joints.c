@@ -11,7 +11,7 @@ enum { DEEPEST = 512 };
 typedef struct search {
   declared_joints *to;
   const struct aiNode *root;
-  const json_t *nodes; /* of a glTF */
+  const json_t *json; /* of a glTF */
   const bool *is_joint;
   bool good;
 } search;
@@ -29,33 +29,17 @@ static void add(search *s, const struct aiNode *node) {
   to->nodes[to->count++] = node;
 }
 
-/* Matches nodes by order, because assimp keeps the order of children and names need not be unique. */
-static void walk_gltf(search *s, const struct aiNode *node, const json_t *number, int depth) {
-  size_t at = json_is_integer(number) ? (size_t)json_integer_value(number) : SIZE_MAX;
-  const json_t *children = json_object_get(json_array_get(s->nodes, at), "children");
-  if (at >= json_array_size(s->nodes) || depth == DEEPEST) return;
-  if (s->is_joint[at]) add(s, node);
+/* Matches nodes by order, because names need not be unique. */
+static void walk_gltf(search *s, const struct aiNode *node, int32_t number, int depth) {
+  if (depth == DEEPEST) return;
+  if (number >= 0 && s->is_joint[number]) add(s, node);
   for (unsigned i = 0; i < node->mNumChildren; i++)
-    if (i < json_array_size(children))
-      walk_gltf(s, node->mChildren[i], json_array_get(children, i), depth + 1);
-}
-
-/* A scene's only node is assimp's root; for several nodes assimp adds a root. */
-static void walk_scene(search *s, const struct aiNode *root, const json_t *json) {
-  const json_t *number = json_object_get(json, "scene");
-  size_t scene = json_is_integer(number) ? (size_t)json_integer_value(number) : 0;
-  const json_t *tops = json_object_get(json_array_get(json_object_get(json, "scenes"), scene), "nodes");
-  if (json_array_size(tops) == 1) {
-    walk_gltf(s, root, json_array_get(tops, 0), 0);
-    return;
-  }
-  for (unsigned i = 0; i < root->mNumChildren; i++)
-    if (i < json_array_size(tops)) walk_gltf(s, root->mChildren[i], json_array_get(tops, i), 0);
+    walk_gltf(s, node->mChildren[i], gltf_child(s->json, number, i), depth + 1);
 }
 
 static bool find_in_gltf(const struct aiScene *scene, const json_t *json, declared_joints *to) {
-  search s = {.to = to, .nodes = json_object_get(json, "nodes"), .good = true};
-  size_t count = json_array_size(s.nodes), skin, k;
+  search s = {.to = to, .json = json, .good = true};
+  size_t count = json_array_size(json_object_get(json, "nodes")), skin, k;
   bool *is_joint = calloc(count + 1, sizeof *is_joint);
   json_t *described, *joint;
   if (!is_joint) return false;
@@ -66,7 +50,7 @@ static bool find_in_gltf(const struct aiScene *scene, const json_t *json, declar
     }
   }
   s.is_joint = is_joint;
-  walk_scene(&s, scene->mRootNode, json);
+  walk_gltf(&s, scene->mRootNode, gltf_root(json), 0);
   free(is_joint);
   return s.good;
 }

@@ -109,6 +109,32 @@ bool gltf_load_buffers(gltf *g) {
   return true;
 }
 
+static int32_t number_in(const json_t *list, size_t index, size_t count) {
+  const json_t *number = json_array_get(list, index);
+  json_int_t value = json_is_integer(number) ? json_integer_value(number) : -1;
+  return value >= 0 && (size_t)value < count && value <= INT32_MAX ? (int32_t)value : GLTF_UNKNOWN;
+}
+
+static const json_t *top_nodes(const json_t *json) {
+  const json_t *number = json_object_get(json, "scene");
+  size_t scene = json_is_integer(number) ? (size_t)json_integer_value(number) : 0;
+  return json_object_get(json_array_get(json_object_get(json, "scenes"), scene), "nodes");
+}
+
+int32_t gltf_root(const json_t *json) {
+  const json_t *tops = top_nodes(json);
+  return json_array_size(tops) == 1 ? number_in(tops, 0, json_array_size(json_object_get(json, "nodes")))
+                                    : GLTF_ADDED;
+}
+
+int32_t gltf_child(const json_t *json, int32_t node, unsigned index) {
+  const json_t *nodes = json_object_get(json, "nodes");
+  const json_t *children = node >= 0 ? json_object_get(json_array_get(nodes, (size_t)node), "children")
+                           : node == GLTF_ADDED ? top_nodes(json)
+                                                : NULL;
+  return number_in(children, index, json_array_size(nodes));
+}
+
 const char *gltf_unread_extension(const gltf *g) {
   static const char *const unread[] = {
       "KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_meshopt_compression"};

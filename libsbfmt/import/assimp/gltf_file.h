@@ -37,6 +37,13 @@ bool gltf_open(gltf *g, const char *path);
 bool gltf_load_buffers(gltf *g);
 void gltf_close(gltf *g);
 
+/* Number of the node that is assimp's root: the scene's only top node, or GLTF_ADDED if assimp added the
+ * root. And of child `index` of a node or of that root; GLTF_UNKNOWN if it has none. assimp keeps the order.
+ */
+enum { GLTF_ADDED = -1, GLTF_UNKNOWN = -2 };
+int32_t gltf_root(const json_t *json);
+int32_t gltf_child(const json_t *json, int32_t node, unsigned index);
+
 /* Required extension of the file that makes assimp read wrong vertices; NULL if none. */
 const char *gltf_unread_extension(const gltf *g);
 

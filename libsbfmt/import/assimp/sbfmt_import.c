@@ -88,18 +88,21 @@ static uint32_t count_nodes(const struct aiNode *node) {
   return count;
 }
 
-/* Writes a node and its descendants in depth-first order, numbered from *next; -1 for no parent. */
+/* Writes a node and its descendants in depth-first order, numbered from *next; -1 for no parent. `source` is
+ * the node's number in a glTF file, below 0 if it has none. */
 static void write_nodes(
-    const struct aiScene *scene, const struct aiNode *node, int32_t parent, int32_t *next) {
+    const struct aiScene *scene, const struct aiNode *node, int32_t parent, int32_t *next, int32_t source) {
   int32_t number = (*next)++;
   write_ai_string(&node->mName);
   write_u32((uint32_t)parent);
   write_u32(kind_of(scene, node));
+  write_u32((uint32_t)(source < 0 ? -1 : source));
   write_f32s(&node->mTransformation.a1, 16);
   write_limits(node->mMetaData);
   write_u32(node->mNumMeshes);
   for (unsigned i = 0; i < node->mNumMeshes; i++) write_u32(node->mMeshes[i]);
-  for (unsigned i = 0; i < node->mNumChildren; i++) write_nodes(scene, node->mChildren[i], number, next);
+  for (unsigned i = 0; i < node->mNumChildren; i++)
+    write_nodes(scene, node->mChildren[i], number, next, gltf_child(gltf_read.json, source, i));
 }
 
 static void write_polygons(const struct aiMesh *mesh) {
@@ -282,7 +285,7 @@ static void write_scene(const struct aiScene *scene) {
   int32_t next = 0;
   write_header(scene);
   write_u32(count_nodes(scene->mRootNode));
-  write_nodes(scene, scene->mRootNode, -1, &next);
+  write_nodes(scene, scene->mRootNode, -1, &next, gltf_root(gltf_read.json));
   write_u32(scene->mNumMeshes);
   for (unsigned i = 0; i < scene->mNumMeshes; i++) write_mesh(scene->mMeshes[i]);
   write_u32(scene->mNumMaterials);

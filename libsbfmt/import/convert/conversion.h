@@ -50,6 +50,10 @@ sbf_status sbfi_evaluate_gait(sbfi_conversion *c);
 sbf_status sbfi_face_ahead(sbfi_conversion *c);
 /* After the gait: moves characters to the origin and onto y = 0. */
 sbf_status sbfi_stand_on_ground(sbfi_conversion *c);
+/* After the skeleton, of a VRM file: names the chains of its humanoid. */
+sbf_status sbfi_convert_humanoid(sbfi_conversion *c);
+/* After gait and ground, of a VRM file: its springs become chains that swing. */
+sbf_status sbfi_convert_springs(sbfi_conversion *c);
 /* After meshes and ground: creates a rigid body for each bone with sections, and joints between them. */
 sbf_status sbfi_convert_joints(sbfi_conversion *c);
 /* After ground: converts the rig's animations to tracks of bones. */

@@ -22,11 +22,13 @@
 #include "import/paper/dialect2012.h"
 #include "import/rigging/rigging.h"
 #include "import/scene/bind_pose.h"
+#include "import/vrm/vrm.h"
 #include "model/options.h"
 
 /* Matrix from file axes and unit to asset space. Options override the file. */
 static sbfi_matrix matrix_to_asset(const sbfi_scene *scene, const sbf_convert_options *options) {
   sbfi_matrix m = scene->axes;
+  if (scene->vrm && scene->vrm->faces_back) m.at[0][0] = m.at[2][2] = -1;
   if (options->up) {
     static const sbfi_matrix z_up = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
     m = options->up == 'z' ? z_up : sbfi_matrix_identity();
@@ -132,16 +134,17 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
         "the file has no skeleton, so its objects become bodies without pins: add a skeleton with --rig");
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
-      sbfi_rig_input, sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials, sbfi_join_borders,
-      sbfi_convert_meshes, sbfi_measure_leaf_bones, sbfi_evaluate_gait, sbfi_report_lying, sbfi_face_ahead,
-      sbfi_propose_gait, sbfi_report_other_skeletons, sbfi_stand_on_ground, sbfi_convert_joints,
-      sbfi_convert_attachments, sbfi_propose_limits, sbfi_convert_clips, sbfi_propose_rest_pose,
-      sbfi_propose_softness};
+      sbfi_convert_humanoid, sbfi_rig_input, sbfi_convert_check_pins, sbfi_match_sections,
+      sbfi_convert_materials, sbfi_join_borders, sbfi_convert_meshes, sbfi_measure_leaf_bones,
+      sbfi_evaluate_gait, sbfi_report_lying, sbfi_face_ahead, sbfi_propose_gait, sbfi_report_other_skeletons,
+      sbfi_stand_on_ground, sbfi_convert_springs, sbfi_convert_joints, sbfi_convert_attachments,
+      sbfi_propose_limits, sbfi_convert_clips, sbfi_propose_rest_pose, sbfi_propose_softness};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     bool of_gait = passes[i] == sbfi_evaluate_gait || passes[i] == sbfi_report_lying ||
                    passes[i] == sbfi_face_ahead || passes[i] == sbfi_propose_gait;
     if (of_gait && options->no_gait) continue;
-    if (passes[i] == sbfi_face_ahead && options->forward) continue;
+    bool faces_ahead = options->forward || (c->rig && c->rig->vrm && c->rig->vrm->is_avatar);
+    if (passes[i] == sbfi_face_ahead && faces_ahead) continue;
     sbf_status status = passes[i](c);
     if (status != SBF_OK) return status;
   }

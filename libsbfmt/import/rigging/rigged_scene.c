@@ -21,7 +21,7 @@ static bool position_of(const sbfi_rigging *r, const sbfi_scene_mesh *mesh, sbfi
 static void add_node(const sbfi_rigging *r, uint32_t mesh, sbfi_scene_node *nodes, uint32_t at) {
   sbfi_scene_node *node = &nodes[at];
   sbfi_matrix to_parent;
-  *node = (sbfi_scene_node){.name = r->names[mesh], .parent = r->parent_nodes[mesh]};
+  *node = (sbfi_scene_node){.name = r->names[mesh], .parent = r->parent_nodes[mesh], .number = SBF_NONE};
   if (!position_of(r, &r->input.scene->meshes[mesh], &node->world)) node->world = sbfi_matrix_identity();
   node->local = node->world;
   if (node->parent == SBF_NONE) return;

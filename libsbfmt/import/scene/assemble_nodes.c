@@ -70,7 +70,7 @@ static bool fold(sbfi_assembly *a) {
     }
     const char *name = sbfi_scene_string(a->scene, node->name);
     if (!name) return false;
-    a->nodes[count] = (sbfi_scene_node){.name = name, .parent = kept, .local = local};
+    a->nodes[count] = (sbfi_scene_node){.name = name, .parent = kept, .local = local, .number = node->number};
     if (!copy_limits(a, &a->nodes[count], raw->nodes[i].limits)) return false;
     a->old_from_new[count] = i;
     a->new_from_old[i] = (int32_t)count++;

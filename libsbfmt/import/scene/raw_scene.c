@@ -139,7 +139,7 @@ static void read_limits(cursor *c, sbfi_raw_node *node) {
 }
 
 static void read_nodes(cursor *c, sbfi_raw_scene *scene) {
-  scene->node_count = read_count(c, 84, "the nodes");
+  scene->node_count = read_count(c, 88, "the nodes");
   if (scene->node_count > INT32_MAX) fail(c, "the nodes");
   scene->nodes = make(c, scene->node_count, sizeof *scene->nodes);
   for (uint32_t i = 0; !c->status && i < scene->node_count; i++) {
@@ -147,10 +147,12 @@ static void read_nodes(cursor *c, sbfi_raw_scene *scene) {
     node->name = read_string(c, "a node");
     node->parent = (int32_t)read_u32(c, "a node");
     uint32_t kind = read_u32(c, "a node");
+    node->number = (int32_t)read_u32(c, "a node");
     node->local = read_matrix(c, "the transform", node->name);
     read_limits(c, node);
     node->mesh_count = read_count(c, 4, "the meshes of a node");
     node->meshes = take(c, node->mesh_count, 4, "the meshes of a node");
+    if (node->number < SBF_NONE) fail(c, "the number of a node");
     if (node->parent < SBF_NONE || node->parent >= (int32_t)i) fail(c, "the parent of a node");
     if (kind > SBFI_STREAM_BONE) fail(c, "the kind of a node");
     node->kind = (sbfi_stream_kind)kind;

@@ -9,6 +9,7 @@ typedef struct sbfi_raw_node {
   sbfi_span name;
   int32_t parent; /* index below that of the node, or SBF_NONE */
   sbfi_stream_kind kind;
+  int32_t number; /* in a glTF file, or SBF_NONE */
   sbfi_matrix local;
   sbfi_scene_limit limits[SBFI_LIMITS]; /* minimum and maximum may be swapped */
   uint32_t mesh_count;

@@ -32,6 +32,7 @@ typedef struct sbfi_scene_node {
   int32_t parent;    /* index of a node before this one, or SBF_NONE */
   sbfi_matrix local; /* rest transform, node to parent */
   sbfi_matrix world; /* node to scene: world of the parent times local */
+  int32_t number;    /* of the node in a glTF file, or SBF_NONE */
   bool is_bone;      /* a joint of a skin, or declared as a bone by the file */
   bool is_end;       /* a leaf that only marks the tip of its parent: "…_end" bones, BVH end sites */
   sbfi_scene_limit limits[SBFI_LIMITS]; /* of the joint between the node and its parent */
@@ -188,6 +189,7 @@ typedef struct sbfi_scene {
   const sbfi_scene_material *materials;
   const sbfi_scene_image *images;
   const sbfi_scene_clip *clips;
+  const struct sbfi_vrm *vrm; /* avatar data of a VRM file; NULL if there is none */
   sbf_diagnostic *warnings; /* in the order found; warnings beyond SBFI_SCENE_WARNINGS are only counted */
   uint32_t warnings_left_out;
 } sbfi_scene;

@@ -6,12 +6,25 @@
 #include "import/obj/obj.h"
 #include "import/scene/assimp_bridge.h"
 #include "import/scene/scene.h"
+#include "import/vrm/vrm.h"
 
 static bool ends_in_obj(const char *path) {
   size_t length = strlen(path);
   if (length < 4) return false;
   const char *end = path + length - 4;
   return end[0] == '.' && (end[1] | 0x20) == 'o' && (end[2] | 0x20) == 'b' && (end[3] | 0x20) == 'j';
+}
+
+/* What assimp does not pass on of a glTF file. */
+static sbf_status read_gltf_extensions(
+    sbfi_scene *scene, const char *path, const sbfi_scene_options *o, sbf_diagnostic *error) {
+  sbfi_file_content file;
+  if (strcmp(scene->format, "glb") != 0 && strcmp(scene->format, "gltf") != 0) return SBF_OK;
+  sbf_status status = sbfi_file_map(path, o->input_limit_bytes, o->allocator, &file, error);
+  if (status) return status;
+  status = sbfi_vrm_read(scene, file.at, file.size, o->allocator, error);
+  sbfi_file_content_free(&file);
+  return status;
 }
 
 sbf_status sbfi_scene_read(
@@ -33,6 +46,7 @@ sbf_status sbfi_scene_read(
     }
   } else {
     status = sbfi_assimp_read(scene, path, &o, error);
+    if (!status) status = read_gltf_extensions(scene, path, &o, error);
   }
   return status ? sbfi_scene_fail(scene, error, status) : SBF_OK;
 }

@@ -10,7 +10,8 @@
  *   i32 axes[6]                 up axis, its sign, front, sign, right, sign (FBX); all 0 if it has none
  *   u32 incomplete              the importer reports an incomplete scene
  *   list of nodes, parents first:
- *     str name, i32 parent, u32 kind (sbfi_stream_kind), f32 local[16] row after row,
+ *     str name, i32 parent, u32 kind (sbfi_stream_kind), u32 number of the node in a glTF
+ *     file (SBF_NONE: none), f32 local[16] row after row,
  *     u32 limited (bits 0 to 2: twist, swing_y, swing_z), f32 minimum and maximum (rad) for each set bit,
  *     list of u32 meshes
  *   list of meshes:
@@ -37,7 +38,7 @@
 
 enum {
   SBFI_STREAM_MAGIC = 0x53464253, /* "SBFS" where the low byte comes first */
-  SBFI_STREAM_VERSION = 3,
+  SBFI_STREAM_VERSION = 4,
   SBFI_STREAM_END = 0x21646e65,
   SBFI_STREAM_LIMITS = 3 /* kinds of limits that a node may have */
 };

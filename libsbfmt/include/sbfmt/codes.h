@@ -292,6 +292,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_FAR = 959, /* An object is so far from the origin that single precision rounds its shape: move it to the origin in its program. */
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra were inverted and their points were reordered: no action is needed. */
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out: mesh the volume again if parts are missing. */
+  SBF_CODE_IMPORT_SPRING = 962, /* A spring bone, a collider or a humanoid bone of a VRM file is malformed: correct it in the program that wrote the file. */
   SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE = 970, /* Skin weights cannot be computed: use a mesh with a surface, and a rig with bones that deform it. */
   SBF_CODE_IMPORT_RIG_OUTSIDE = 971, /* Less than 60 % of the rig's bone length is inside the mesh near some of its surface, or less than 85 % after its limbs were rotated: use the rig of this mesh in its pose, or state --unit, --up and --forward. */
   SBF_CODE_IMPORT_WEIGHTS_COMPUTED = 972, /* The rig has no mesh with weights, so weights were computed from its bones: choose another source with --weights. */

@@ -31,7 +31,7 @@ extern "C" {
 // clang-format off
 
 /* Version of the format that this library writes. */
-#define SBF_FORMAT_VERSION "1.3"
+#define SBF_FORMAT_VERSION "1.4"
 
 /* A whole file: metres, kilograms, seconds, radians; right-handed, +Y up, +Z forward, rest pose. */
 typedef struct sbf_asset {
@@ -59,6 +59,7 @@ typedef struct sbf_asset {
   sbf_relaxation relaxation;                /* Dimensionless settings of the relaxation scheme. */
   sbf_extension_list extensions;            /* Content beyond this specification. */
   sbf_section_recipe_list section_recipes;  /* Settings of sections that `build` cuts. */
+  sbf_chain_collider_list chain_colliders;  /* Shapes that swinging chains collide with. */
 } sbf_asset;
 
 /* Sets every field to its default, lists to empty, references to SBF_NONE. */

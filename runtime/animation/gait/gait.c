@@ -25,6 +25,8 @@ static const float RECOVERY_S = 0.12f;      /* time constant for regaining speed
 size_t sbri_gait_state_size(const sbri_rig *rig) {
   size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tails.bone_count +
                 sizeof(sbri_chain_bone) * rig->chains.bone_count +
+                sizeof(sbri_spring_end) * rig->springs.chains.bone_count +
+                sizeof(sbri_spring_clock) * rig->springs.chains.count +
                 sizeof(sbri_limb_target) * rig->asset->ik_chains.count +
                 sizeof(sbri_bone_follower) * rig->asset->followers.count + sbri_motion_size(rig);
   return (size + 15) & ~(size_t)15;
@@ -273,6 +275,7 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
   sbri_limb_target *targets = sbri_limb_targets(rig, state);
   for (uint32_t i = 0; i < rig->asset->ik_chains.count; i++)
     targets[i].position = sbri_sub(targets[i].position, shift);
+  sbri_springs_rebase(rig, state, shift);
   sbri_followers_rebase(rig, state, shift);
   sbri_motion_rebase(rig, state, shift);
 }

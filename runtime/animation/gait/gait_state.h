@@ -145,8 +145,9 @@ typedef struct sbri_gait_state {
   sbri_clip_layer clips[SBRI_CLIP_LAYERS];
   sbri_foot feet[SBRI_MAX_LEGS];
   /* In memory it is followed by tail_bone_count x {yaw, pitch} (sbri_lag, relative to the heading and the
-   * level), chain_bone_count sbri_chain_bone, one sbri_limb_target per IK chain and one sbri_bone_follower
-   * per follower. */
+   * level), chain_bone_count sbri_chain_bone, one sbri_spring_end per bone of a swinging chain, one
+   * sbri_spring_clock per swinging chain, one sbri_limb_target per IK chain and one sbri_bone_follower per
+   * follower. */
 } sbri_gait_state;
 
 /* State of one bone of a trailing chain. */
@@ -155,6 +156,17 @@ typedef struct sbri_chain_bone {
   sbf_vec3 tip;        /* position of the bone's end */
   sbf_vec3 velocity;   /* of its head */
 } sbri_chain_bone;
+
+/* End of a swinging bone at the last two steps; relative to the spring's center bone if it has one. */
+typedef struct sbri_spring_end {
+  sbf_vec3 now, before;
+} sbri_spring_end;
+
+/* A swinging chain between its steps. */
+typedef struct sbri_spring_clock {
+  float pending_s;              /* time since the last step */
+  sbr_transform anchor, center; /* first bone without swing, and center bone, in the last tick's pose */
+} sbri_spring_clock;
 
 /* Target of an IK chain, set by the host. */
 typedef struct sbri_limb_target {
@@ -177,8 +189,14 @@ static inline sbri_lag *sbri_tail_lags(sbri_gait_state *state) {
 static inline sbri_chain_bone *sbri_chain_bones(const sbri_rig *rig, sbri_gait_state *state) {
   return (sbri_chain_bone *)(void *)(sbri_tail_lags(state) + 2 * rig->tails.bone_count);
 }
+static inline sbri_spring_end *sbri_spring_ends(const sbri_rig *rig, sbri_gait_state *state) {
+  return (sbri_spring_end *)(void *)(sbri_chain_bones(rig, state) + rig->chains.bone_count);
+}
+static inline sbri_spring_clock *sbri_spring_clocks(const sbri_rig *rig, sbri_gait_state *state) {
+  return (sbri_spring_clock *)(void *)(sbri_spring_ends(rig, state) + rig->springs.chains.bone_count);
+}
 static inline sbri_limb_target *sbri_limb_targets(const sbri_rig *rig, sbri_gait_state *state) {
-  return (sbri_limb_target *)(void *)(sbri_chain_bones(rig, state) + rig->chains.bone_count);
+  return (sbri_limb_target *)(void *)(sbri_spring_clocks(rig, state) + rig->springs.chains.count);
 }
 static inline sbri_bone_follower *sbri_bone_followers(const sbri_rig *rig, sbri_gait_state *state) {
   return (sbri_bone_follower *)(void *)(sbri_limb_targets(rig, state) + rig->asset->ik_chains.count);
@@ -454,7 +472,14 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
 void sbri_limbs_reach(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbr_transform *pose);
 
-/* ---- animation/gait/trailing_chain.c, animation/gait/bone_follower.c ---- */
+/* ---- animation/gait/trailing_chain.c, spring_chain.c, bone_follower.c ---- */
+
+/* Vector from a bone's head to the next one at rest, in the bone's frame, with the chain's spacing. */
+sbf_vec3 sbri_chain_step(const sbri_rig *rig, const sbf_chain *chain, uint32_t k, float scale);
+/* Swinging chains: last, on the finished pose. */
+void sbri_springs_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_advance advance, sbr_transform *pose);
+void sbri_springs_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift);
 
 void sbri_chains_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbri_advance advance, sbr_transform *pose);

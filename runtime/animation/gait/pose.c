@@ -328,6 +328,7 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   if (input->keeps_rest_pose) {
     sbri_squashes_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);
     sbri_weights_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);
+    sbri_springs_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);
     return;
   }
   sbri_clips_pose(rig, state, input->scale, pose);
@@ -340,4 +341,5 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, advance, pose);
   sbri_limbs_reach(rig, state, input, &stance.root, pose);
   sbri_followers_pose(rig, state, input, &stance.root, advance, pose);
+  sbri_springs_pose(rig, state, input, advance, pose);
 }

@@ -14,25 +14,26 @@ static sbf_quat bend_of(sbf_quat rotation, const sbf_chain *chain, float decay) 
   return sbri_quat_exp(v);
 }
 
-/* Vector from a bone's head to the next one at rest, in the bone's frame, with the chain's spacing. */
-static sbf_vec3 rest_step(const sbri_rig *rig, const sbf_chain *chain, uint32_t k, float scale) {
+sbf_vec3 sbri_chain_step(const sbri_rig *rig, const sbf_chain *chain, uint32_t k, float scale) {
   const sbr_transform *rest = &rig->bones.rest[chain->bones.at[k]];
   float length = rig->asset->bones.at[chain->bones.at[k]].length;
+  bool is_last = k + 1 == chain->bones.count, is_spaced = !is_last || chain->spring;
   sbf_vec3 step = {0, length, 0};
-  if (k + 1 < chain->bones.count) {
+  if (!is_last) {
     sbf_vec3 next = sbri_sub(rig->bones.rest[chain->bones.at[k + 1]].position, rest->position);
     step = sbri_rotate(sbri_quat_conjugate(rest->rotation), next);
   }
   float size = sbri_length(step);
-  float wanted = chain->spacing.count && k + 1 < chain->bones.count ? chain->spacing.at[k] : size;
-  return size > 0 ? sbri_scale(step, wanted * scale / size) : step;
+  float wanted = chain->spacing.count && is_spaced ? chain->spacing.at[k] : size;
+  if (size > 0) return sbri_scale(step, wanted * scale / size);
+  return chain->spring ? sbri_vec3(0, wanted * scale, 0) : step;
 }
 
 /* Keeps the height above the ground at rest. */
 static float height_at(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbf_chain *chain, uint32_t k, sbf_vec3 position) {
   uint32_t bone = chain->bones.at[k];
-  sbf_vec3 step = sbri_rotate(rig->bones.rest[bone].rotation, rest_step(rig, chain, k, 1));
+  sbf_vec3 step = sbri_rotate(rig->bones.rest[bone].rotation, sbri_chain_step(rig, chain, k, 1));
   float rest = rig->bones.rest[bone].position.y + step.y;
   return sbri_ground_below(input, position, NULL).y + rest * input->scale + state->motion.position.y;
 }
@@ -47,7 +48,7 @@ static sbf_quat rotation_of(const sbri_rig *rig, const sbri_gait_state *state, c
     sbf_quat rotation = sbri_quat_multiply(was->frame.rotation, sbri_quat_conjugate(straight));
     return bend_of(rotation, chain, decay);
   }
-  sbf_vec3 ideal = sbri_rotate(straight, rest_step(rig, chain, k, input->scale)), tip = was->tip;
+  sbf_vec3 ideal = sbri_rotate(straight, sbri_chain_step(rig, chain, k, input->scale)), tip = was->tip;
   if (sbri_dot(ideal, ideal) == 0) return sbri_quat_identity(); /* a link without length has no direction */
   tip.y = height_at(rig, state, input, chain, k, tip);
   sbf_vec3 from = sbri_normalize(ideal, sbri_vec3(0, 0, 1));
@@ -82,7 +83,7 @@ static void pose_chain(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
     if (advance == SBRI_ADVANCE_TICK) bone->velocity = sbri_scale(displacement, 1 / input->tick_s);
     if (advance == SBRI_ADVANCE_RESET) bone->velocity = sbri_vec3(0, 0, 0);
     bone->frame = (sbr_transform){head, now};
-    bone->tip = sbri_add(head, sbri_rotate(now, rest_step(rig, chain, k, input->scale)));
+    bone->tip = sbri_add(head, sbri_rotate(now, sbri_chain_step(rig, chain, k, input->scale)));
   }
 }
 

@@ -141,6 +141,20 @@ typedef struct sbri_rig_chains {
   uint32_t count, bone_count;
 } sbri_rig_chains;
 
+/* Shape that the ends of swinging bones collide with, in its bone's frame. */
+typedef struct sbri_chain_shape {
+  const sbf_chain_collider *source;
+  sbf_vec3 position; /* as in the source, m */
+  sbf_vec3 axis;     /* from a capsule's first end to the other, m */
+  sbf_vec3 normal;   /* of a plane, unit length */
+} sbri_chain_shape;
+
+/* Chains that swing, those on other chains after them. */
+typedef struct sbri_rig_springs {
+  sbri_rig_chains chains;
+  const sbri_chain_shape *shapes; /* (asset's chain_colliders) */
+} sbri_rig_springs;
+
 /* Measures of the standing body, asset space. */
 typedef struct sbri_rig_stand {
   float hind_z, fore_z;       /* mean z of the homes of fore legs and of the others */
@@ -170,6 +184,7 @@ typedef struct sbri_rig {
   uint32_t leg_count;
   sbri_rig_tails tails;
   sbri_rig_chains chains;
+  sbri_rig_springs springs;
   sbri_walks walks;
   sbri_rig_stand stand;
   sbri_wall_volume wall_volume;

@@ -5,6 +5,7 @@
 #include "animation/skeleton/rig_mass.h"
 #include "animation/skeleton/rig_soles.h"
 #include "animation/skeleton/rig_spine.h"
+#include "animation/skeleton/rig_springs.h"
 #include "animation/skeleton/rig_tails.h"
 #include "animation/skeleton/rig_walks.h"
 #include "animation/skeleton/wall_volume.h"
@@ -23,7 +24,7 @@ size_t sbri_rig_size(const sbf_asset *asset) {
          rounded(sbri_rig_tails_size(asset)) + rounded(n) + rounded(n * sizeof(sbri_joint_limit)) +
          3 * rounded(n * sizeof(uint32_t)) + rounded(n * sizeof(sbri_bone_mass)) +
          rounded(asset->chains.count * sizeof(sbri_bone_chain)) + rounded(sbri_walks_size(asset)) +
-         rounded(sbri_rig_spine_size(asset)) + 16;
+         rounded(sbri_rig_spine_size(asset)) + rounded(sbri_rig_springs_size(asset)) + 16;
 }
 
 static void *carve(char **memory, size_t size) {
@@ -131,16 +132,10 @@ static void init_legs(sbri_rig *rig) {
   rig->stand.half_width = rig->leg_count ? width / (float)rig->leg_count : 0;
 }
 
-static bool moves_as_tail(const sbri_rig *rig, uint32_t chain) {
-  for (uint32_t t = 0; rig->gait && t < rig->gait->tails.count; t++)
-    if (rig->gait->tails.at[t].chain == (int32_t)chain) return true;
-  return false;
-}
-
 static void init_chains(sbri_rig *rig, sbri_bone_chain *chains) {
   for (uint32_t i = 0; i < rig->asset->chains.count; i++) {
     const sbf_chain *source = &rig->asset->chains.at[i];
-    if (source->bones.count < 2 || moves_as_tail(rig, i)) continue;
+    if (source->bones.count < 2 || source->spring || sbri_rig_moves_as_tail(rig, i)) continue;
     chains[rig->chains.count++] = (sbri_bone_chain){source, rig->chains.bone_count};
     rig->chains.bone_count += source->bones.count;
   }
@@ -276,5 +271,6 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   sbri_rig_find_belly(rig);
   sbri_walks_init(&rig->walks, rig, carve(&free_memory, sbri_walks_size(asset)));
   sbri_rig_find_spine(rig, carve(&free_memory, sbri_rig_spine_size(asset)));
+  sbri_rig_find_springs(rig, carve(&free_memory, sbri_rig_springs_size(asset)));
   sbri_rig_find_wall_volume(rig);
 }

@@ -80,3 +80,9 @@ void sbri_rig_find_tails(sbri_rig *rig, void *memory) {
   for (uint32_t t = 0; t < rig->tails.count; t++)
     set_clearances(rig, &tails[t], bones + tails[t].first_state);
 }
+
+bool sbri_rig_moves_as_tail(const sbri_rig *rig, uint32_t chain) {
+  for (uint32_t t = 0; rig->gait && t < rig->gait->tails.count; t++)
+    if (rig->gait->tails.at[t].chain == (int32_t)chain) return true;
+  return false;
+}

@@ -10,4 +10,7 @@ size_t sbri_rig_tails_size(const sbf_asset *asset);
  * are set. */
 void sbri_rig_find_tails(sbri_rig *rig, void *memory);
 
+/* Whether the gait moves a chain as a tail. */
+bool sbri_rig_moves_as_tail(const sbri_rig *rig, uint32_t chain);
+
 #endif

@@ -2,7 +2,7 @@
 
 from .fields import Element, Field
 
-VERSION = "1.3"
+VERSION = "1.4"
 
 ENUMS = {
     'alpha_mode': ('opaque', 'mask', 'blend'),
@@ -24,6 +24,7 @@ ENUMS = {
     'chain_kind': ('lag', 'distance'),
     'follower_channel': ('rotation', 'position', 'both', 'squash', 'weight'),
     'bone_axis': ('x', 'y', 'z'),
+    'chain_collider_shape': ('sphere', 'capsule', 'plane'),
     'track_property': ('translation', 'rotation', 'scale'),
     'interpolation': ('linear', 'step', 'cubic'),
     'field_kind': ('uniform', 'radial', 'vortex', 'drag'),
@@ -54,6 +55,7 @@ ELEMENTS = {element.name: element for element in (
         Field('relaxation', 'one', 'relaxation', xml='relaxation'),
         Field('extensions', 'many', 'extension', xml='extension', wrapper='extensions'),
         Field('section_recipes', 'many', 'section_recipe', xml='section_recipe', wrapper='section_recipes'),
+        Field('chain_colliders', 'many', 'chain_collider', xml='chain_collider', wrapper='chain_colliders'),
     )),
     Element('info', 'info', (
         Field('title', 'string', default=''),
@@ -546,6 +548,25 @@ ELEMENTS = {element.name: element for element in (
         Field('bob_frequency', 'float', default=0.8),
         Field('glide_ratio', 'float', default=0.0),
     )),
+    Element('chain_spring', 'chain_spring', (
+        Field('stiffness', 'float[]'),
+        Field('drag', 'float[]'),
+        Field('gravity', 'vec3[]'),
+        Field('radius', 'float[]'),
+        Field('center', 'ref', 'bones'),
+        Field('colliders', 'uint[]'),
+    )),
+    Element('chain_collider', 'chain_collider', (
+        Field('id', 'id', default='', required=True),
+        Field('name', 'string', default=''),
+        Field('bone', 'ref', 'bones', required=True),
+        Field('shape', 'enum', 'chain_collider_shape', default='sphere', required=True),
+        Field('position', 'vec3', default=(0.0, 0.0, 0.0)),
+        Field('end', 'vec3', default=(0.0, 0.0, 0.0)),
+        Field('normal', 'vec3', default=(0.0, 1.0, 0.0)),
+        Field('radius', 'float', default=0.0),
+        Field('inside', 'bool', default=False),
+    )),
     Element('chain', 'chain', (
         Field('id', 'id', default='', required=True),
         Field('name', 'string', default=''),
@@ -555,6 +576,7 @@ ELEMENTS = {element.name: element for element in (
         Field('angle_limit', 'float', default=1.0),
         Field('damping', 'float', default=0.0),
         Field('proposed', 'bool', default=False),
+        Field('spring', 'optional', 'chain_spring', xml='chain_spring'),
     )),
     Element('follower', 'follower', (
         Field('id', 'id', default='', required=True),
