@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "import/gait/gait_draft.h"
+#include "import/gait/named_chains.h"
 
 enum { MIN_TAIL = 2 }; /* minimum number of bones of a tail recognized by shape alone */
 
@@ -118,7 +119,8 @@ static bool find_tail(sbfi_gait_draft *d) {
 }
 
 bool sbfi_draft_ends(sbfi_gait_draft *d) {
-  d->head = sbfi_draft_named_head(d);
+  d->head = sbfi_chain_head(d->asset);
+  if (d->head == SBF_NONE) d->head = sbfi_draft_named_head(d);
   if (d->head == SBF_NONE) d->head = head_by_shape(d);
   return find_tail(d);
 }

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "import/gait/gait_draft.h"
+#include "import/gait/named_chains.h"
 
 /* fraction of the height; maximum height of a leg's end above the ground */
 static const double GROUND_FRACTION = 0.05;
@@ -162,9 +163,11 @@ bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch) {
   int32_t *path = sbfi_arena_allocate(scratch, count, sizeof *path);
   d->legs = sbfi_arena_allocate(scratch, count, sizeof *d->legs);
   if (!path || !d->legs) return false;
-  for (uint32_t i = 0; i < count; i++)
-    if (begins_limb(d, (int32_t)i) && add_leg(d, (int32_t)i, GROUND_FRACTION, path)) d->leg_count++;
-  add_lifted_legs(d, path);
+  if (!sbfi_draft_named_legs(d)) {
+    for (uint32_t i = 0; i < count; i++)
+      if (begins_limb(d, (int32_t)i) && add_leg(d, (int32_t)i, GROUND_FRACTION, path)) d->leg_count++;
+    add_lifted_legs(d, path);
+  }
   find_girdles(d);
   return true;
 }

@@ -4,6 +4,7 @@
 
 #include "import/convert/conversion.h"
 #include "import/gait/locomotion.h"
+#include "import/gait/named_chains.h"
 
 enum { MAX_REASONS = 4 }; /* pieces of evidence in a message */
 
@@ -58,6 +59,12 @@ static void report_kind(sbfi_conversion *c, const sbfi_locomotion *found) {
         sbfi_locomotion_name(found->kind), first, sbfi_locomotion_name(found->second), second);
 }
 
+static void walk_as_humanoid(sbfi_conversion *c) {
+  c->locomotion->kind = SBFI_LOCOMOTION_WALK;
+  c->locomotion->unsure = false;
+  sbfi_convert_warn(c, SBF_CODE_GAIT_KIND, "its gait is walk: the file names its legs");
+}
+
 sbf_status sbfi_evaluate_gait(sbfi_conversion *c) {
   const sbf_asset *a = c->asset;
   if (a->bones.count == 0 || a->gaits.count || a->chains.count || a->ik_chains.count) return SBF_OK;
@@ -67,6 +74,8 @@ sbf_status sbfi_evaluate_gait(sbfi_conversion *c) {
   if (!sbfi_find_locomotion(a, &names, &c->scratch, c->locomotion)) return sbfi_convert_no_memory(c);
   if (c->options->gait)
     c->locomotion->kind = sbfi_locomotion_named(c->options->gait);
+  else if (sbfi_has_named_legs(a))
+    walk_as_humanoid(c);
   else
     report_kind(c, c->locomotion);
   return SBF_OK;

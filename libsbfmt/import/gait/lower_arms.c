@@ -1,7 +1,7 @@
 /* Natural angles for arms that are held out in the bind pose. */
 #include <math.h>
 
-#include "import/gait/rest_pose.h"
+#include "import/gait/named_chains.h"
 #include "motion/quatd.h"
 
 static const double DEGREE = 0.017453292519943295;
@@ -88,6 +88,8 @@ uint32_t sbfi_draft_arms(const sbfi_rig_view *view, const sbf_gait *gait, sbfi_a
   uint32_t count = 0;
   int32_t pair = SBF_NONE;
   if (gait->kind != SBF_GAIT_KIND_WALK || gait->legs.count != 2) return 0;
+  count = sbfi_draft_named_arms(d->asset, arms);
+  if (count) return count;
   for (uint32_t l = 0; l < view->limb_count; l++) {
     const sbfi_limb_shape *limb = &view->limbs[l];
     double top = (double)sbfi_draft_head(d, limb->root).y;

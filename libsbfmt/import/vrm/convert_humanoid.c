@@ -10,7 +10,8 @@ typedef struct humanoid_chain {
 
 enum { TO_RIGHT = SBFI_VRM_RIGHT - SBFI_VRM_LEFT };
 static const humanoid_chain chains[] = {{"spine", SBFI_VRM_HIPS, SBFI_VRM_UPPER_CHEST},
-    {"neck", SBFI_VRM_NECK, SBFI_VRM_HEAD}, {"leg_left", SBFI_VRM_UPPER_LEG, SBFI_VRM_TOES},
+    {"neck", SBFI_VRM_NECK, SBFI_VRM_NECK}, {"head", SBFI_VRM_HEAD, SBFI_VRM_HEAD},
+    {"leg_left", SBFI_VRM_UPPER_LEG, SBFI_VRM_TOES},
     {"leg_right", SBFI_VRM_UPPER_LEG + TO_RIGHT, SBFI_VRM_TOES + TO_RIGHT},
     {"arm_left", SBFI_VRM_SHOULDER, SBFI_VRM_HAND},
     {"arm_right", SBFI_VRM_SHOULDER + TO_RIGHT, SBFI_VRM_HAND + TO_RIGHT}};
