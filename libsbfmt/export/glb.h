@@ -3,7 +3,8 @@
  * base/text.h prints the JSON, as for all formats: shortest digits, no locale, out of memory is reported. No
  * other feature of a JSON library is needed.
  *
- * Nodes: one per bone, in order; one per written mesh, in order; and, if there are bones, their root. */
+ * Nodes: one per bone, in order; one per written mesh, in order; if there are bones, their root; and ends of
+ * swinging bones. */
 #ifndef SBFI_GLB_H
 #define SBFI_GLB_H
 
@@ -56,12 +57,13 @@ typedef struct sbfi_glb {
   sbfi_arena arena;
   sbfi_text bytes; /* binary chunk */
   sbfi_glb_array parts[SBFI_GLB_PARTS];
-  const int32_t *texture_indices; /* by texture of the asset: index among the written ones, or SBF_NONE */
-  sbfi_glb_mesh *meshes;          /* by render mesh */
-  sbfi_glb_affine *bone_motions;  /* (bones) memory for sbfi_glb_compute_offsets; NULL without a motion */
-  size_t frame_points;            /* of all render meshes */
-  uint32_t root_node;             /* parent of the bones */
-  bool root_is_joint;             /* it is also the joint of points without a bone */
+  const int32_t *texture_indices;   /* by texture of the asset: index among the written ones, or SBF_NONE */
+  sbfi_glb_mesh *meshes;            /* by render mesh */
+  sbfi_glb_affine *bone_motions;    /* (bones) memory for sbfi_glb_compute_offsets; NULL without a motion */
+  size_t frame_points;              /* of all render meshes */
+  uint32_t root_node;               /* parent of the bones */
+  struct sbfi_glb_springs *springs; /* export/glb_springs.h; NULL: nothing swings */
+  bool root_is_joint;               /* it is also the joint of points without a bone */
   bool emissive_strength, texture_transform, texture_webp; /* used extensions */
   bool failed;                                             /* memory ran out */
   uint32_t omitted_images, omitted_tracks;

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "export/glb.h"
+#include "export/glb_springs.h"
 #include "gltf/soft_body_reader.h"
 
 static const char *const part_names[SBFI_GLB_PARTS] = {
@@ -24,10 +24,15 @@ static void write_scene(sbfi_glb *g, sbfi_text *json) {
   sbfi_text_string(json, "]}]");
 }
 
+static bool has_springs(const sbfi_glb *g) {
+  return g->springs && g->springs->count;
+}
+
 static void write_extensions_used(const sbfi_glb *g, sbfi_text *json) {
   const char *const extensions[] = {g->emissive_strength ? "KHR_materials_emissive_strength" : NULL,
       g->texture_transform ? "KHR_texture_transform" : NULL, g->texture_webp ? "EXT_texture_webp" : NULL,
-      g->e->soft_bodies ? SBFI_GLTF_EXTENSION : NULL};
+      g->e->soft_bodies ? SBFI_GLTF_EXTENSION : NULL, has_springs(g) ? "VRMC_springBone" : NULL,
+      has_springs(g) && g->springs->extended ? "VRMC_springBone_extended_collider" : NULL};
   uint32_t used = 0;
   for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
     if (extensions[i])
@@ -58,11 +63,16 @@ static void write_json(sbfi_glb *g, sbfi_text *json, const sbfi_text *soft_body)
     sbfi_text_append(json, part->text.at, part->text.length);
     sbfi_text_char(json, ']');
   }
+  if (soft_body->length || has_springs(g)) sbfi_text_string(json, ",\"extensions\":{");
   if (soft_body->length) {
-    sbfi_text_string(json, ",\"extensions\":{\"" SBFI_GLTF_EXTENSION "\":");
+    sbfi_text_string(json, "\"" SBFI_GLTF_EXTENSION "\":");
     sbfi_text_append(json, soft_body->at, soft_body->length);
-    sbfi_text_char(json, '}');
   }
+  if (has_springs(g)) {
+    sbfi_text_string(json, soft_body->length ? ",\"VRMC_springBone\":" : "\"VRMC_springBone\":");
+    sbfi_glb_write_springs(g, json);
+  }
+  if (soft_body->length || has_springs(g)) sbfi_text_char(json, '}');
   sbfi_text_char(json, '}');
   sbfi_text_repeat(json, ' ', (4 - json->length % 4) % 4);
 }
@@ -116,8 +126,10 @@ static void report_unsupported(const sbfi_glb *g) {
     inherit += !a->bones.at[i].inherit_rotation || !a->bones.at[i].inherit_scale;
   const sbfi_left_out things[] = {{a->soft_bodies.count, "soft bodies"},
       {a->rigid_bodies.count, "rigid bodies"}, {a->joints.count, "joints between them"},
-      {a->ik_chains.count, "inverse kinematics"}, {a->gaits.count, "gaits"}, {a->chains.count, "chains"},
-      {a->followers.count, "followers"}, {a->poses.count, "poses"}, {a->bone_masks.count, "bone masks"},
+      {a->ik_chains.count, "inverse kinematics"}, {a->gaits.count, "gaits"},
+      {g->springs ? g->springs->chains_left_out : a->chains.count, "chains"},
+      {g->springs ? g->springs->followers_left_out : a->followers.count, "followers"},
+      {a->poses.count, "poses"}, {a->bone_masks.count, "bone masks"},
       {a->retarget_chains.count, "retargeting chains"}, {uv_sets, "uv sets beyond four"},
       {g->omitted_images, "images that are neither PNG nor JPEG nor WebP, or not found"},
       {g->omitted_tracks, "clip tracks without increasing times"},

@@ -102,3 +102,16 @@ def springs(avatar, colliders=True, **numbers):
             "colliderGroups": [{"name": "body", "colliders": [0, 1, 4]}, {"name": "around", "colliders": [2, 3]}] if colliders else [],
             "springs": [{"name": "hair", "joints": hair, "colliderGroups": [0, 1] if colliders else []},
                         {"name": "lock", "joints": lock, "center": head}]}
+
+
+def old_springs(avatar, **numbers):
+    """Bone groups and collider groups of VRM 0.x, whose offsets have z against glTF's."""
+    turn = 1 if avatar.back else -1
+    groups = [{"comment": "hair", "bones": [avatar.node["hair0"]], "stiffiness": 0.4, "gravityPower": 0.3, "dragForce": 0.3,
+               "gravityDir": {"x": 0, "y": -1, "z": 0}, "hitRadius": 0.02, "center": -1, "colliderGroups": [0, 1], **numbers},
+              {"comment": "lock", "bones": [avatar.node["lock0"]], "stiffiness": 0.8, "gravityPower": 0.1, "dragForce": 0.4,
+               "gravityDir": {"x": 0, "y": -1, "z": 0}, "hitRadius": 0, "center": avatar.node["head"], "colliderGroups": []}]
+    colliders = [{"node": avatar.node["head"], "colliders": [{"offset": {"x": 0, "y": 0.1, "z": -0.02 * turn}, "radius": 0.11}]},
+                 {"node": avatar.node["chest"], "colliders": [{"offset": {"x": 0, "y": 0.1, "z": -0.05 * turn}, "radius": 0.16},
+                                                              {"offset": {"x": 0, "y": -0.05, "z": -0.05 * turn}, "radius": 0.14}]}]
+    return groups, colliders

@@ -1,12 +1,14 @@
-// spring_bones_under_node.mjs FILE.glb POSES.json RATE: the swinging chains of a glTF file as @pixiv/three-vrm-springbone moves them. POSES.json has for each
+// spring_bones_under_node.mjs FILE.glb POSES.json RATE [back] [rigid]: the swinging chains of a glTF file as @pixiv/three-vrm-springbone moves them. POSES.json has for each
 // frame the world position and the rotation from rest of every node that no chain moves, by name. Prints the world positions of all nodes, by frame and name.
+// back: the file faces -Z and is turned, as viewers turn VRM 0.x. rigid: bones keep their length, as VRMC_springBone has it; three-vrm measures it in each
+// frame from the end of the bone as it was a frame before.
 import { readFileSync } from 'node:fs';
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { VRMSpringBoneLoaderPlugin } from '@pixiv/three-vrm-springbone';
 
 globalThis.self ??= globalThis;
-const [file, poses, rate] = process.argv.slice(2);
+const [file, poses, rate, ...words] = process.argv.slice(2);
 const frames = JSON.parse(readFileSync(poses, 'utf8'));
 const bytes = readFileSync(file);
 const loader = new GLTFLoader();
@@ -16,6 +18,7 @@ const gltf = await new Promise((resolve, reject) =>
 const springs = gltf.userData.vrmSpringBoneManager;
 const scene = new THREE.Scene();
 scene.add(gltf.scene);
+if (words.includes('back')) gltf.scene.rotation.y = Math.PI;
 scene.updateMatrixWorld(true);
 
 const nodes = new Map(), rest = new Map();
@@ -36,6 +39,11 @@ function place(frame) {
     }
     node.updateWorldMatrix(false, false);
   });
+}
+
+for (const joint of words.includes('rigid') ? springs.joints : []) {
+  const length = joint.initialLocalChildPosition.length();
+  joint._calcWorldSpaceBoneLength = () => { joint._worldSpaceBoneLength = length; };
 }
 
 const found = [];

@@ -1,21 +1,10 @@
-/* Springs of VRM as chains that swing.
- *
- * VRM's numbers act once a frame: in a frame of 1/60 s, for which avatars are made, the end of a bone keeps
- * 1 - dragForce of its last displacement and moves by (stiffness x direction + gravity) / 60. A velocity that
- * decays at the rate drag, v' = a - drag v, does the same in 1/60 s with
- *
- *   drag = -60 ln(1 - dragForce),   a = (stiffness x direction + gravity) drag / dragForce
- *
- * and a = 60 (stiffness x direction + gravity) for dragForce 0. At other rates VRM viewers differ from each
- * other; swinging chains do not. */
+/* Springs of VRM as chains that swing. */
 #include <math.h>
 #include <string.h>
 
 #include "import/convert/conversion.h"
 #include "import/vrm/vrm.h"
-
-static const double RATE_HZ = 60;
-static const double MOST_DRAG = 1 - 1e-6; /* 1 keeps nothing and would be an infinite rate */
+#include "interchange/vrm_units.h"
 
 typedef struct spring_work {
   sbfi_conversion *c;
@@ -96,8 +85,8 @@ typedef struct spring_lists {
 } spring_lists;
 
 static void set_joint(const spring_work *w, const sbfi_vrm_joint *joint, uint32_t k, spring_lists *to) {
-  double kept = fmin((double)joint->drag_force, MOST_DRAG), drag = -RATE_HZ * log1p(-kept);
-  double factor = kept > 0 ? drag / kept : RATE_HZ, gravity = factor * (double)joint->gravity_power;
+  double drag = sbfi_vrm_drag((double)joint->drag_force), factor = sbfi_vrm_acceleration(drag);
+  double gravity = factor * (double)joint->gravity_power;
   const sbf_vec3 g = joint->gravity_direction;
   to->stiffness[k] = (float)fmin(factor * (double)joint->stiffness, 1e30);
   to->drag[k] = (float)drag;
