@@ -28,6 +28,7 @@ fin_motion: flap trail steer
 chain_kind: lag distance
 follower_channel: rotation position both squash weight
 bone_axis: x y z
+chain_collider_shape: sphere capsule plane
 track_property: translation rotation scale
 interpolation: linear step cubic
 field_kind: uniform radial vortex drag
@@ -59,6 +60,7 @@ asset <sbf> ROOT
   relaxation: one(relaxation)
   extensions: many(extension) as=<extensions><extension>
   section_recipes: many(section_recipe) as=<section_recipes><section_recipe>
+  chain_colliders: many(chain_collider) as=<chain_colliders><chain_collider> since=4
 info
   title: string
   licence: string
@@ -493,6 +495,24 @@ chain
   angle_limit: float default=1 range=[0,3.15]
   damping: float range=[0,inf)
   proposed: bool default=false
+  spring: optional(chain_spring) as=<chain_spring> since=4
+chain_spring
+  stiffness: float[] range=[0,inf) length=0|1|parent.bones
+  drag: float[] range=[0,inf) length=0|1|parent.bones
+  gravity: vec3[] length=0|1|parent.bones
+  radius: float[] range=[0,inf) length=0|1|parent.bones
+  center: ref(bones)
+  colliders: uint[] below=asset.chain_colliders
+chain_collider
+  id: id required
+  name: string
+  bone: ref(bones) required
+  shape: enum(chain_collider_shape) required
+  position: vec3
+  end: vec3
+  normal: vec3 default=0,1,0
+  radius: float range=[0,inf)
+  inside: bool default=false
 follower
   id: id required
   name: string
@@ -571,7 +591,7 @@ extension
   data: text
 """
 
-KNOWN_VERSION = (1, 3)  # the version of the format that this reader knows
+KNOWN_VERSION = (1, 4)  # the version of the format that this reader knows
 WIDTHS = {"vec2": 2, "vec3": 3, "vec4": 4, "quat": 4, "uint2": 2, "uint4": 4}
 CHILDREN = ("one", "optional", "many")
 

@@ -386,7 +386,7 @@ class DamagedBundles(ProgramTest):
                b"</skeleton><fog density='2'><x>1</x></fog></sbf>"
         self.good("unpack", write_bytes(self.path("x.sbf"), text), "-o", self.path("y.sbf"))
         self.assertEqual(read_bytes(self.path("y.sbf")).split(b"\n", 1)[1],
-                         b'<sbf version="1.3">\n  <skeleton>\n    <bone id="a" head="0 0 0"/>\n  </skeleton>\n</sbf>\n')
+                         b'<sbf version="1.4">\n  <skeleton>\n    <bone id="a" head="0 0 0"/>\n  </skeleton>\n</sbf>\n')
 
 
 @needs_lizard

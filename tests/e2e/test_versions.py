@@ -59,7 +59,7 @@ class Versions(ProgramTest):
     def test_what_a_newer_version_adds_is_left_out_and_reported(self):
         newer = self.text("1.99", ' gloss="2"', "<glow><x>1</x></glow>", '<fog density="2"/>')
         self.both_take(newer, True, "VERSION_NEWER")
-        said = "has version 1.99, this library knows 1.3: 3 parts of it were left out, the first is " \
+        said = "has version 1.99, this library knows 1.4: 3 parts of it were left out, the first is " \
                "/sbf/materials/material[1]/@gloss"
         for verb, *options in (("unpack", "-o", self.path("out.sbf")), ("pack", "-o", self.path("out.sbfz")),
                                ("build", "-o", self.path("built.sbf")), ("convert", "-o", self.path("converted.sbf")),
@@ -91,7 +91,7 @@ class Versions(ProgramTest):
             self.both_take(self.sealed(grown), takes)
         result = call("unpack", self.path("changed.sbfz"), "-o", self.path("out.sbf"))
         self.assertEqual(result.status, 0, result.err)
-        self.assertIn("has version 1.7, this library knows 1.3: 1 part of it was left out, the first is field 999 of /sbf", result.err)
+        self.assertIn("has version 1.7, this library knows 1.4: 1 part of it was left out, the first is field 999 of /sbf", result.err)
 
     def test_gaps_hold_zeros_in_versions_that_are_known(self):
         whole = self.packed(self.text("1.1"))

@@ -26,7 +26,7 @@ sbf_asset *rules_load(const char *inside, bool mendable) {
   sbf_asset *asset;
   sbf_diagnostic error = {0};
   sbf_load_options options = {.mendable = mendable};
-  int length = snprintf(text, sizeof text, "<sbf version=\"1.2\">%s</sbf>", inside);
+  int length = snprintf(text, sizeof text, "<sbf version=\"" SBF_FORMAT_VERSION "\">%s</sbf>", inside);
   ck_assert_int_lt(length, (int)sizeof text);
   sbf_status status = sbf_xml_load_memory(text, (size_t)length, &options, &asset, &error);
   ck_assert_msg(status == SBF_OK, "%s: %s", error.path, error.message);

@@ -1,3 +1,5 @@
+#include <stdio.h>
+
 #include "legs.h"
 
 #define CHAINED(bones) LEGS "<chains><chain id=\"c\"><bones>" bones "</bones></chain></chains>"
@@ -12,6 +14,38 @@ START_TEST(test_chains)
   rules_expect(CHAINED("1"), "CHAIN_EMPTY /sbf/chains/chain[1]");
   rules_expect(CHAINED("1 0"), "CHAIN_BROKEN /sbf/chains/chain[1]/bones #1");
   rules_expect(CHAINED("1 2 2"), "BONE_REPEATED /sbf/chains/chain[1]/bones #2");
+}
+END_TEST
+
+#define SWUNG(chains) LEGS "<chains>" chains "</chains>"
+#define SPRUNG(id, bones, spring)                                                                            \
+  "<chain id=\"" id "\"><bones>" bones "</bones><chain_spring " spring "/></chain>"
+
+START_TEST(test_springs)
+{
+  rules_expect(SWUNG(SPRUNG("a", "1 2", "center=\"body\"") SPRUNG("b", "4", "")), ""); /* one bone swings */
+  rules_expect(SWUNG(SPRUNG("a", "1 2", "center=\"left\"")), "");
+  rules_expect(SWUNG("<chain id=\"a\"><chain_spring/></chain>"), "CHAIN_EMPTY /sbf/chains/chain[1]");
+  rules_expect(SWUNG(SPRUNG("a", "1 2", "") SPRUNG("b", "2 3", "")),
+      "CHAIN_SPRING_REPEATED /sbf/chains/chain[2]/chain_spring");
+  rules_expect(
+      SWUNG("<chain id=\"a\"><bones>1 2</bones></chain>" SPRUNG("b", "1 2", "")), ""); /* the spring moves */
+  rules_expect(
+      SWUNG(SPRUNG("a", "1 2", "center=\"right\"")), "CHAIN_CENTER /sbf/chains/chain[1]/chain_spring");
+}
+END_TEST
+
+START_TEST(test_colliders)
+{
+  static const char *const shapes[] = {"sphere", "capsule", "plane"};
+  for (int i = 0; i < 3; i++) {
+    char text[1024];
+    snprintf(text, sizeof text,
+        "%s<chain_colliders><chain_collider id=\"c\" bone=\"body\" shape=\"%s\" normal=\"0 0 0\"/>"
+        "</chain_colliders>",
+        LEGS, shapes[i]);
+    rules_expect(text, i < 2 ? "" : "CHAIN_COLLIDER_NORMAL /sbf/chain_colliders/chain_collider[1]");
+  }
 }
 END_TEST
 
@@ -62,5 +96,5 @@ START_TEST(test_what_else_swings)
 }
 END_TEST
 
-RULES_MAIN(
-    "chain_rules", test_chains, test_retarget_chains, test_masks, test_followers, test_what_else_swings)
+RULES_MAIN("chain_rules", test_chains, test_springs, test_colliders, test_retarget_chains, test_masks,
+    test_followers, test_what_else_swings)

@@ -226,6 +226,9 @@ typedef enum sbf_code {
   SBF_CODE_PIN_NO_WEIGHT = 763, /* All weights of a pin set are 0, so it has no effect: raise weights or minimum. */
   SBF_CODE_PIN_OFFSET = 764, /* Pins move points far from their rest position: check the offsets, which are in the frame of the bone or body. */
   SBF_CODE_ATTACHMENT_EMPTY = 765, /* An attachment contains no point: move the hull around some, or list them. */
+  SBF_CODE_CHAIN_SPRING_REPEATED = 766, /* Two chains with springs swing one bone: keep one. */
+  SBF_CODE_CHAIN_CENTER = 767, /* The center of a swinging chain is not its first bone or above it: choose a bone that is. */
+  SBF_CODE_CHAIN_COLLIDER_NORMAL = 768, /* A plane that ends of chains collide with has no direction: state a normal. */
   SBF_CODE_RIG_ALIGNED = 781, /* The input was scaled, rotated or moved onto the rig: state its unit and axes if that is wrong. */
   SBF_CODE_RIG_WEIGHTS = 782, /* Points of the input were assigned to bones, by name, position, nearest surface, from the bones or from a file: change that with --weights. */
   SBF_CODE_RIG_MISFIT = 783, /* The rig does not fit the input: use the character's own rig, state its unit and axes, or choose other weights. */

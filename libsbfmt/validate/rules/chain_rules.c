@@ -1,4 +1,5 @@
-/* Checks chains, followers and bone lists: order, duplicates, damped oscillators. */
+/* Checks chains, their springs and colliders, followers and bone lists: order, duplicates, damped
+ * oscillators. */
 #include "validate/rules/bone_chain.h"
 #include "validate/validation.h"
 
@@ -32,11 +33,45 @@ static void check_chains(sbfi_validation *v) {
     const sbf_chain *chain = &v->asset->chains.at[i];
     sbfi_path path = sbfi_path_of("/sbf/chains/chain[%u]", i + 1);
     bone_list l = {"chain", sbfi_label(chain->name, chain->id), path.text, chain->bones};
-    if (chain->bones.count < 2)
+    if (chain->bones.count < (chain->spring ? 1 : 2))
       sbfi_found(v, SBF_CODE_CHAIN_EMPTY, path.text, -1, "chain '%s' has %u bone%s", l.name,
           chain->bones.count, sbfi_plural(chain->bones.count));
     find_repeated(v, &l);
     check_order(v, &l);
+  }
+}
+
+static void check_springs(sbfi_validation *v) {
+  /* chain number from 1 */
+  uint32_t *first = sbfi_scratch(v, v->asset->bones.count, sizeof *first);
+  for (uint32_t i = 0; first && i < v->asset->chains.count; i++) {
+    const sbf_chain *chain = &v->asset->chains.at[i];
+    sbfi_path path = sbfi_path_of("/sbf/chains/chain[%u]/chain_spring", i + 1);
+    if (!chain->spring) continue;
+    for (uint32_t k = 0; k < chain->bones.count; k++) {
+      uint32_t bone = chain->bones.at[k], *holder = &first[bone];
+      if (*holder && *holder != i + 1)
+        sbfi_found(v, SBF_CODE_CHAIN_SPRING_REPEATED, path.text, -1, "chains %u and %u swing the bone '%s'",
+            *holder, i + 1, sbfi_bone_label(v->asset, bone));
+      *holder = i + 1;
+    }
+    int32_t center = chain->spring->center;
+    bool is_above = center < 0 || !chain->bones.count || center == (int32_t)chain->bones.at[0] ||
+                    sbfi_bone_is_descendant(v->asset, (int32_t)chain->bones.at[0], center);
+    if (!is_above)
+      sbfi_found(v, SBF_CODE_CHAIN_CENTER, path.text, -1, "the center '%s' of chain '%s' is not above it",
+          sbfi_bone_label(v->asset, (uint32_t)center), sbfi_label(chain->name, chain->id));
+  }
+}
+
+static void check_colliders(sbfi_validation *v) {
+  for (uint32_t i = 0; i < v->asset->chain_colliders.count; i++) {
+    const sbf_chain_collider *c = &v->asset->chain_colliders.at[i];
+    const sbf_vec3 n = c->normal;
+    if (c->shape == SBF_CHAIN_COLLIDER_SHAPE_PLANE && n.x == 0 && n.y == 0 && n.z == 0)
+      sbfi_found(v, SBF_CODE_CHAIN_COLLIDER_NORMAL,
+          sbfi_path_of("/sbf/chain_colliders/chain_collider[%u]", i + 1).text, -1,
+          "the normal of the plane '%s' is 0", sbfi_label(c->name, c->id));
   }
 }
 
@@ -123,6 +158,8 @@ static void check_jiggles(sbfi_validation *v) {
 
 void sbfi_check_chains(sbfi_validation *v) {
   check_chains(v);
+  check_springs(v);
+  check_colliders(v);
   check_retarget_chains(v);
   check_masks(v);
   check_followers(v);
