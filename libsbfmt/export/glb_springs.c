@@ -36,11 +36,18 @@ static double length_of(sbf_vec3 v) {
   return sbfi_d3_length(sbfi_d3_of(v));
 }
 
-/* As a second-order system of that frequency in Hz: a pendulum of that length has the acceleration L w^2. */
+/* As a second-order system of that frequency in Hz. With e = 1 - dragForce and c = stiffness h / length, a
+ * small angle goes from step to step as a <- (a + e (a - a_before)) / (1 + c): its two modes have the product
+ * e / (1 + c) and the sum (1 + e) / (1 + c), which are those of the system. A system with less damping than
+ * that of the steps has none of its own. */
 static void set_frequency(sbfi_glb_joint *joint, double length, double frequency, double damping_ratio) {
-  double w = TURN * frequency, drag = 2 * damping_ratio * w;
-  joint->drag_force = (float)sbfi_vrm_drag_force(drag);
-  joint->stiffness = (float)(length * w * w / sbfi_vrm_acceleration(drag));
+  double w = TURN * frequency * STEP_S, z = damping_ratio, root = sqrt(fabs(1 - z * z));
+  double sum = z < 1 ? 2 * exp(-z * w) * cos(root * w) : exp(-w / (z + root)) + exp(-w * (z + root));
+  double product = exp(-2 * z * w), ahead = sum - product;
+  double kept = ahead > 0 ? product / ahead : 2, c = ahead > 0 ? 1 / ahead - 1 : w * w;
+  if (kept > 1) kept = 1, c = w * w;
+  joint->drag_force = (float)(1 - kept);
+  joint->stiffness = (float)(length * fmin(fmax(c, 0), 1e6) / STEP_S);
 }
 
 /* Without inertia; a small angle decays at that rate in 1/s. */
