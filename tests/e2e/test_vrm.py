@@ -121,12 +121,11 @@ class Vrm(ProgramTest):
             self.assertIn("the file names its legs", told)
 
     def test_springs_win_over_a_proposed_tail(self):
-        avatar = Avatar()
-        avatar._bone("tail0", "hips", (0, 0.9, -0.12), True)
-        for i, z in enumerate((-0.3, -0.5, -0.7)):
-            avatar._bone(f"tail{i + 1}", f"tail{i}", (0, 0.88, z), True)
-        tail = joints([avatar.node[f"tail{i}"] for i in range(4)], stiffness=1)
+        avatar = Avatar(tail=True)
+        tail = joints(avatar.chain("tail", 4), stiffness=1)
         extension = {"specVersion": "1.0", "springs": [{"name": "tail", "joints": tail}]}
+        bundle, _ = self.converted(avatar.write(self.path("stiff.vrm"), VRMC_vrm=avatar.humanoid()))
+        self.assertIsNotNone(bundle.root.find("gait/tail"))
         bundle, _ = self.converted(avatar.write(self.path("tail.vrm"), VRMC_vrm=avatar.humanoid(), VRMC_springBone=extension))
         self.assertIsNone(bundle.root.find("gait/tail"))
         self.assertEqual(list(bundle.chains), ["tail"])
@@ -319,8 +318,10 @@ def fits(value, schema, load, path="$"):
         found.append(f"{path} has {len(value)} items")
     own = {word: rule for word, rule in own.items() if word in ("type", "required", "enum")}
     found += faults(value, own)
-    if "$ref" in schema and schema["$ref"].startswith("VRM"):
+    if schema.get("$ref", "").startswith("VRM"):
         found += fits(value, load(schema["$ref"]), load, path)
+    for part in schema.get("allOf", ()):
+        found += fits(value, part, load, path)
     for name, rule in schema.get("properties", {}).items():
         if isinstance(value, dict) and name in value and isinstance(rule, dict):
             found += fits(value[name], rule, load, f"{path}.{name}")

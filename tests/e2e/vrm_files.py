@@ -5,6 +5,7 @@ from skinned_glb import SkinnedGlb
 from stranger_rigs import PERSON, RADII, heads_and_tips, tube_along
 
 HAIR = [(0, 1.70, -0.10), (0, 1.66, -0.22), (0, 1.55, -0.28), (0, 1.42, -0.29), (0, 1.30, -0.28)]  # the last is the end
+TAIL = [(0, 0.90, -0.12), (0, 0.88, -0.30), (0, 0.87, -0.50), (0, 0.86, -0.70)]
 LOCK = [(0.09, 1.72, 0.04), (0.12, 1.62, 0.06), (0.13, 1.52, 0.07)]
 HUMAN = {"hips": "hips", "spine": "spine", "chest": "chest", "head": "head",
          **{f"{side}{bone}": f"{name}.{side[0].upper()}" for side in ("left", "right")
@@ -15,16 +16,16 @@ HUMAN = {"hips": "hips", "spine": "spine", "chest": "chest", "head": "head",
 class Avatar:
     """`plain`: nodes have the names of their bones; else numbers, which say nothing. `back`: it faces -Z, as VRM 0.x."""
 
-    def __init__(self, plain=True, back=False, body=True):
+    def __init__(self, plain=True, back=False, tail=False):
         self.glb, self.node, self.back = SkinnedGlb(), {}, back
         self.heads, self.joints, tubes = {}, [], []
         heads, tips = heads_and_tips()
-        for name, parent, head in (PERSON if body else PERSON[:4]):
+        for name, parent, head in PERSON:
             self._bone(name, parent, head, plain)
             tubes.append((name, heads[name], tips[name], RADII[name.partition(".")[0]]))
-        for chain, points in (("hair", HAIR), ("lock", LOCK)):
+        for chain, above, points in (("hair", "head", HAIR), ("lock", "head", LOCK), ("tail", "hips", TAIL if tail else [])):
             for i, head in enumerate(points):
-                self._bone(f"{chain}{i}", f"{chain}{i - 1}" if i else "head", head, plain)
+                self._bone(f"{chain}{i}", f"{chain}{i - 1}" if i else above, head, plain)
                 if i + 1 < len(points):
                     tubes.append((f"{chain}{i}", head, points[i + 1], 0.02))
         self._skin(tubes)
