@@ -131,12 +131,12 @@ static bool add_follower(sbfi_glb *g, const sbf_follower *follower, uint8_t *tak
 
 void sbfi_glb_plan_springs(sbfi_glb *g, uint32_t first_node) {
   const sbf_asset *a = g->e->asset;
-  uint32_t most = a->chains.count + a->followers.count;
-  if (!most || !a->bones.count || g->e->motion) return;
+  uint32_t capacity = a->chains.count + a->followers.count;
+  if (!capacity || !a->bones.count || g->e->motion) return;
   sbfi_glb_springs *s = sbfi_glb_allocate(g, 1, sizeof *s);
   uint8_t *taken = sbfi_glb_allocate(g, a->bones.count, 1);
   if (!s || !taken) return;
-  s->at = sbfi_glb_allocate(g, most, sizeof *s->at);
+  s->at = sbfi_glb_allocate(g, capacity, sizeof *s->at);
   for (int own = 1; own >= 0 && s->at; own--) /* chains with springs first */
     for (uint32_t i = 0; i < a->chains.count; i++) {
       const sbf_tail *tail = tail_of(a, i);

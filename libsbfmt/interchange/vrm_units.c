@@ -3,10 +3,10 @@
 #include <math.h>
 
 static const double RATE_HZ = 60;
-static const double MOST = 1 - 1e-6;
+static const double MAX_DRAG_FORCE = 1 - 1e-6;
 
 double sbfi_vrm_drag(double drag_force) {
-  return -RATE_HZ * log1p(-fmin(drag_force, MOST));
+  return -RATE_HZ * log1p(-fmin(drag_force, MAX_DRAG_FORCE));
 }
 
 double sbfi_vrm_drag_force(double drag) {

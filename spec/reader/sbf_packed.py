@@ -3,7 +3,8 @@
 import struct
 import zlib
 
-from sbf_elements import ELEMENTS, KNOWN_VERSION, ROOT, WORDS, Fault, Object
+from sbf_elements import ELEMENTS, KNOWN_VERSION, ROOT, Fault, Object
+from sbf_words import WORDS
 from sbf_numbers import floats_of_bytes, uints_of_bytes
 
 MAGIC = b"\x89SBF\r\n\x1a\n"

@@ -5,7 +5,8 @@ import binascii
 import re
 import xml.parsers.expat
 
-from sbf_elements import KNOWN_VERSION, ROOT, WORDS, Fault, Object
+from sbf_elements import KNOWN_VERSION, ROOT, Fault, Object
+from sbf_words import WORDS
 from sbf_numbers import read_scalars
 
 SPACE = " \t\r\n"

@@ -128,7 +128,8 @@ int32_t scene_node(
     sbfi_scene *scene, const char *name, int32_t parent, bool bone, double x, double y, double z) {
   ck_assert_uint_lt(scene->node_count, MAX_NODES);
   sbfi_scene_node *node = (sbfi_scene_node *)(uintptr_t)&scene->nodes[scene->node_count];
-  *node = (sbfi_scene_node){.name = name, .parent = parent, .local = sbfi_matrix_identity(), .is_bone = bone, .number = SBF_NONE};
+  *node = (sbfi_scene_node){
+      .name = name, .parent = parent, .local = sbfi_matrix_identity(), .is_bone = bone, .number = SBF_NONE};
   node->local.at[0][3] = x;
   node->local.at[1][3] = y;
   node->local.at[2][3] = z;

@@ -488,6 +488,7 @@ START_TEST(transforms_that_multiply_beyond_measure_are_refused)
     stream_string(&s, "n");
     stream_u32(&s, (uint32_t)(i - 1));
     stream_u32(&s, SBFI_STREAM_BONE);
+    stream_u32(&s, UINT32_MAX);
     stream_f32s(&s, rows, 16);
     stream_u32(&s, 0);
     stream_none(&s);

@@ -331,7 +331,8 @@ static bool divide(division *d) {
     sbfi_scene_mesh *to = &meshes[mesh];
     const char *name = sbfi_scene_string(scene, d->names[mesh]);
     if (!name) return false;
-    nodes[mesh] = (sbfi_scene_node){.name = name, .parent = SBF_NONE, .local = sbfi_matrix_identity(), .number = SBF_NONE};
+    nodes[mesh] = (sbfi_scene_node){
+        .name = name, .parent = SBF_NONE, .local = sbfi_matrix_identity(), .number = SBF_NONE};
     *to = (sbfi_scene_mesh){.name = name, .node = (int32_t)mesh};
     if (!make_points(d, mesh, to) || !make_polygons(d, mesh, to) || !make_normals(d, mesh, to) ||
         !make_uvs(d, mesh, to))

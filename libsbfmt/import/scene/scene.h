@@ -190,7 +190,7 @@ typedef struct sbfi_scene {
   const sbfi_scene_image *images;
   const sbfi_scene_clip *clips;
   const struct sbfi_vrm *vrm; /* avatar data of a VRM file; NULL if there is none */
-  sbf_diagnostic *warnings; /* in the order found; warnings beyond SBFI_SCENE_WARNINGS are only counted */
+  sbf_diagnostic *warnings;   /* in the order found; warnings beyond SBFI_SCENE_WARNINGS are only counted */
   uint32_t warnings_left_out;
 } sbfi_scene;
 
