@@ -238,6 +238,12 @@ class Vrm(ProgramTest):
             bundle = self.converted(self.path("plain.glb"))[0]
             self.assertEqual(sorted(bundle.chains), ["hair", "lock"])
             self.assertEqual(len(bundle.colliders), 5 if make is avatar_1 else 3)
+            before = Bundle(path + ".sbf")
+            self.assertEqual(bundle.names, before.names)  # nodes at ends are no bones
+            for name, chain in before.chains.items():
+                self.assertEqual(bundle.bones_of(bundle.chains[name]), before.bones_of(chain))
+                for one, other in zip(numbers(bundle.chains[name], "spacing"), numbers(chain, "spacing")):
+                    self.assertAlmostEqual(one, other, 5)
 
     def test_a_baked_motion_has_no_springs(self):
         path = avatar_1(self.path("avatar.vrm"))

@@ -109,7 +109,8 @@ static bool write_spring(
   if (!lists.stiffness || !lists.drag || !lists.radius || !lists.gravity) return false;
   if (!colliders && from->collider_count) return false;
   for (uint32_t k = 0; k < count; k++)
-    set_joint(w, &from->joints[!from->has_tail && k > 0 && k + 1 == count ? k - 1 : k], k, &lists);
+    set_joint(
+        w, &from->joints[!from->has_tail && k > 0 && k + 1 == from->joint_count ? k - 1 : k], k, &lists);
   for (uint32_t i = 0; i < from->collider_count; i++)
     if (w->new_colliders[from->colliders[i]] != SBF_NONE)
       colliders[collider_count++] = (uint32_t)w->new_colliders[from->colliders[i]];
@@ -123,11 +124,20 @@ static bool write_spring(
   return true;
 }
 
-/* Bones of a spring's joints; NULL, with `*why` unless memory ran out, if some are none. */
-static uint32_t *bones_of(spring_work *w, const sbfi_vrm_spring *from, const char **why) {
+/* Distance of a last joint that is no bone but the tip of the one before; 0: it is none. */
+static float tip_of(const spring_work *w, const sbfi_vrm_spring *from) {
+  const sbfi_scene_node *end = &w->c->rig->nodes[from->joints[from->joint_count - 1].node];
+  if (from->has_tail || end->is_bone || !end->is_end || end->parent == SBF_NONE) return 0;
+  sbfi_matrix world = sbfi_matrix_multiply(&w->c->rig_to_asset, &w->c->rig->nodes[end->parent].world);
+  const sbf_vec3 at = {(float)end->local.at[0][3], (float)end->local.at[1][3], (float)end->local.at[2][3]};
+  return distance(sbfi_transform_point(&world, (sbf_vec3){0, 0, 0}), sbfi_transform_point(&world, at));
+}
+
+/* Bones of a spring's first joints; NULL, with `*why` unless memory ran out, if some are none. */
+static uint32_t *bones_of(spring_work *w, const sbfi_vrm_spring *from, uint32_t count, const char **why) {
   sbfi_conversion *c = w->c;
-  uint32_t *bones = sbfi_convert_allocate(c, from->joint_count, sizeof *bones);
-  for (uint32_t k = 0; bones && k < from->joint_count; k++) {
+  uint32_t *bones = sbfi_convert_allocate(c, count, sizeof *bones);
+  for (uint32_t k = 0; bones && k < count; k++) {
     int32_t bone = bone_of(c, from->joints[k].node);
     if (bone == SBF_NONE) *why = "has a joint that is no bone, but an object with a mesh";
     if (bone != SBF_NONE && k > 0 && !is_below(c->asset, (uint32_t)bone, bones[k - 1]))
@@ -141,7 +151,8 @@ static uint32_t *bones_of(spring_work *w, const sbfi_vrm_spring *from, const cha
 static sbf_status write_chain(spring_work *w, const sbfi_vrm_spring *from, sbf_chain *to, bool *written) {
   sbfi_conversion *c = w->c;
   const char *why = NULL, *name = *from->name ? from->name : c->rig->nodes[from->joints[0].node].name;
-  uint32_t count = from->joint_count, *bones = bones_of(w, from, &why);
+  float tip = tip_of(w, from);
+  uint32_t count = from->joint_count - (tip > 0), *bones = bones_of(w, from, count, &why);
   *written = bones != NULL;
   if (why) {
     sbfi_convert_warn(c, SBF_CODE_IMPORT_SPRING, "the spring \"%.60s\" %s: it is left out", name, why);
@@ -155,7 +166,7 @@ static sbf_status write_chain(spring_work *w, const sbfi_vrm_spring *from, sbf_c
   if (!bones || !spacing || !spring || !to->id || !to->name) return sbfi_convert_no_memory(c);
   for (uint32_t k = 0; k + 1 < count; k++)
     spacing[k] = distance(c->asset->bones.at[bones[k]].head, c->asset->bones.at[bones[k + 1]].head);
-  spacing[count - 1] = from->has_tail ? (float)((double)SBFI_VRM_TAIL * w->unit_m) : 0;
+  spacing[count - 1] = from->has_tail ? (float)((double)SBFI_VRM_TAIL * w->unit_m) : tip;
   to->bones = (sbf_u32_list){bones, count};
   to->spacing = (sbf_f32_list){spacing, count};
   to->spring = spring;

@@ -27,7 +27,8 @@ typedef struct sbfi_vrm_joint {
   sbf_vec3 gravity_direction;
 } sbfi_vrm_joint;
 
-/* Each joint swings the next one; the last one swings nothing, or a point beyond itself (VRM 0.x). */
+/* Each joint swings the next one; the last one swings nothing, or a point beyond itself (VRM 0.x). The last
+ * node is no bone if it only marks the tip of the one before, along its +Y. */
 typedef struct sbfi_vrm_spring {
   const char *name; /* "" if it has none */
   int32_t center;   /* node or SBF_NONE */

@@ -60,6 +60,16 @@ static void mark(sbfi_scene_node *nodes, const uint8_t *has_mesh, int32_t node) 
   nodes[node].is_end = false;
 }
 
+/* Whether the last joint of a spring only marks the tip of the one before, along its +Y. */
+static bool is_tip(const sbfi_scene *scene, const sbfi_vrm_spring *spring) {
+  if (spring->has_tail) return false;
+  int32_t node = spring->joints[spring->joint_count - 1].node;
+  const sbfi_scene_node *end = &scene->nodes[node];
+  double x = end->local.at[0][3], y = end->local.at[1][3], z = end->local.at[2][3];
+  return end->is_end && !end->is_bone && end->parent == spring->joints[spring->joint_count - 2].node &&
+         y > 0 && x * x + z * z <= 1e-6 * y * y;
+}
+
 /* Springs move nodes that need not be joints of a skin. A node with a mesh stays what it is. */
 static bool mark_bones(sbfi_vrm_reader *r) {
   const sbfi_scene *scene = r->scene;
@@ -72,8 +82,8 @@ static bool mark_bones(sbfi_vrm_reader *r) {
   for (int i = 0; i < SBFI_VRM_BONES; i++) mark(nodes, has_mesh, vrm->bones[i]);
   for (uint32_t i = 0; i < vrm->spring_count; i++) {
     mark(nodes, has_mesh, vrm->springs[i].center);
-    for (uint32_t k = 0; k < vrm->springs[i].joint_count; k++)
-      mark(nodes, has_mesh, vrm->springs[i].joints[k].node);
+    uint32_t count = vrm->springs[i].joint_count - is_tip(scene, &vrm->springs[i]);
+    for (uint32_t k = 0; k < count; k++) mark(nodes, has_mesh, vrm->springs[i].joints[k].node);
   }
   return true;
 }
