@@ -9,6 +9,7 @@
 #include "motion/quatd.h"
 
 static const double TURN = 6.283185307179586, STEP_S = 1.0 / 60;
+static const double SAME_PLACE = 1e-3; /* fraction of a bone's length between its end and a child there */
 
 static float number_of(sbf_f32_list list, uint32_t k) {
   return list.count > 1 ? list.at[k] : list.count ? list.at[0] : 0;
@@ -83,21 +84,45 @@ static bool take_bones(uint8_t *taken, const uint32_t *bones, uint32_t count) {
   return true;
 }
 
+/* Child at the end of a bone that no spring swings yet, which is taken then; SBF_NONE: there is none. */
+static int32_t take_end(const sbf_asset *a, uint32_t bone, sbf_vec3 end, uint8_t *taken) {
+  for (uint32_t i = bone + 1; i < a->bones.count; i++) {
+    if (a->bones.at[i].parent != (int32_t)bone || taken[i]) continue;
+    sbfi_d3 head = sbfi_d3_sub(sbfi_d3_of(a->bones.at[i].head), sbfi_d3_of(a->bones.at[bone].head));
+    sbfi_d3 away = sbfi_d3_sub(sbfi_d3_of(in_bone(a, bone, head)), sbfi_d3_of(end));
+    if (sbfi_d3_length(away) > SAME_PLACE * length_of(end)) continue;
+    taken[i] = 1;
+    return (int32_t)i;
+  }
+  return SBF_NONE;
+}
+
+static bool is_descending(const sbf_asset *a, const uint32_t *bones, uint32_t count) {
+  for (uint32_t k = 1; k < count; k++) {
+    int32_t bone = (int32_t)bones[k];
+    while (bone > (int32_t)bones[k - 1]) bone = a->bones.at[bone].parent;
+    if (bone != (int32_t)bones[k - 1] || bones[k] == bones[k - 1]) return false;
+  }
+  return true;
+}
+
 /* Joints of a chain from bone `first` on; bones at the end without length do not swing. */
 static bool add_chain(
     sbfi_glb *g, const sbf_chain *chain, const sbf_tail *tail, uint8_t *taken, sbfi_glb_spring *to) {
   const sbf_asset *a = g->e->asset;
   uint32_t first = tail || chain->spring ? 0 : 1, count = chain->bones.count;
   while (count > first && length_of(step_of(a, chain, count - 1)) <= 0) count--;
-  if (count <= first) return false;
+  if (count <= first || !is_descending(a, chain->bones.at, chain->bones.count)) return false;
   uint32_t ends = count < chain->bones.count ? 1 : 0; /* the next bone ends the last one that swings */
   if (!take_bones(taken, chain->bones.at + first, count - first + ends)) return false;
   *to = (sbfi_glb_spring){.name = *chain->name ? chain->name : chain->id,
       .source = tail ? NULL : chain->spring,
       .joints = sbfi_glb_allocate(g, count - first, sizeof *to->joints),
       .joint_count = count - first,
-      .end_bone = ends ? (int32_t)chain->bones.at[count] : SBF_NONE,
+      .end_bone = SBF_NONE,
       .end = step_of(a, chain, count - 1)};
+  to->end_bone =
+      ends ? (int32_t)chain->bones.at[count] : take_end(a, chain->bones.at[count - 1], to->end, taken);
   for (uint32_t k = first; to->joints && k < count; k++) {
     sbfi_glb_joint *joint = &to->joints[k - first];
     double length = length_of(step_of(a, chain, k));
@@ -123,6 +148,7 @@ static bool add_follower(sbfi_glb *g, const sbf_follower *follower, uint8_t *tak
       .joint_count = 1,
       .end_bone = SBF_NONE,
       .end = {0, (float)length, 0}};
+  to->end_bone = take_end(g->e->asset, bone, to->end, taken);
   if (!to->joints) return false;
   to->joints[0] = (sbfi_glb_joint){.bone = bone, .gravity_direction = {0, -1, 0}};
   set_frequency(to->joints, length, (double)follower->frequency, (double)follower->damping_ratio);

@@ -1,5 +1,6 @@
 /* Writes the extensions VRMC_springBone 1.0 and VRMC_springBone_extended_collider 1.0. */
 #include <math.h>
+#include <string.h>
 
 #include "export/glb_springs.h"
 #include "motion/quatd.h"
@@ -16,6 +17,12 @@ void sbfi_glb_add_end_child(const sbfi_glb *g, uint32_t bone, sbfi_text *text, b
   }
 }
 
+static bool is_bone_name(const sbf_asset *a, const char *name) {
+  for (uint32_t i = 0; i < a->bones.count; i++)
+    if (strcmp(*a->bones.at[i].name ? a->bones.at[i].name : a->bones.at[i].id, name) == 0) return true;
+  return false;
+}
+
 void sbfi_glb_write_end_nodes(sbfi_glb *g) {
   for (uint32_t i = 0; g->springs && i < g->springs->count; i++) {
     const sbfi_glb_spring *s = &g->springs->at[i];
@@ -25,7 +32,10 @@ void sbfi_glb_write_end_nodes(sbfi_glb *g) {
     const float end[3] = {s->end.x, s->end.y, s->end.z};
     sbfi_text_init(&name, &g->e->allocator);
     sbfi_text_string(&name, *bone->name ? bone->name : bone->id);
-    sbfi_text_append(&name, "_end", sizeof "_end");
+    do { /* names of joints are unique for some readers */
+      sbfi_text_append(&name, "_end", sizeof "_end");
+      if (!name.failed) name.length--; /* the NUL stays */
+    } while (!name.failed && is_bone_name(g->e->asset, name.at));
     sbfi_text_string(text, "{\"name\":");
     sbfi_glb_write_string(text, name.failed ? "" : name.at);
     sbfi_text_string(text, ",\"translation\":");

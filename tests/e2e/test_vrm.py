@@ -262,6 +262,8 @@ class Vrm(ProgramTest):
 <bone id="r1" name="r1" parent="r0" head="0.1 1.1 0" length="0.1"/>
 <bone id="ear" name="ear" parent="hips" head="0 1.2 0" length="0.1"/>
 <bone id="nose" name="nose" parent="hips" head="0 1.2 0.1"/>
+<bone id="tip" name="tip" parent="ear" head="0 1.3 0"/>
+<bone id="odd" name="t1_end" parent="hips" head="0 1.5 0"/>
 </skeleton>
 <gait id="g" body="hips" kind="none"><tail chain="tail" frequency="1.5" damping_ratio="0.3"/></gait>
 <chains><chain id="tail" name="tail"><bones>1 2</bones></chain><chain id="rope" name="rope" kind="distance" damping="4"><bones>3 4</bones></chain>
@@ -274,7 +276,7 @@ class Vrm(ProgramTest):
         glb = Glb(self.path("bones.glb"))
         by_name = {spring["name"]: spring["joints"] for spring in glb.json["extensions"]["VRMC_springBone"]["springs"]}
         self.assertEqual({name: [glb.nodes[j["node"]]["name"] for j in found] for name, found in by_name.items()},
-                         {"tail": ["t0", "t1", "t1_end"], "rope": ["r1", "r1_end"], "wag": ["ear", "ear_end"]})
+                         {"tail": ["t0", "t1", "t1_end_end"], "rope": ["r1", "r1_end"], "wag": ["ear", "tip"]})
         # The step of 1/60 s has the modes of the system: their product and sum.
         for joint, length, hz, ratio in ((by_name["tail"][0], 0.2, 1.5, 0.3), (by_name["tail"][1], 0.25, 1.5, 0.3), (by_name["wag"][0], 0.1, 3, 0.4)):
             c, kept, w = joint["stiffness"] / 60 / length, 1 - joint["dragForce"], 2 * math.pi * hz / 60
