@@ -10,7 +10,7 @@
 sbf_asset *glb_images_load(const char *path) {
   sbf_asset *asset = NULL;
   sbf_diagnostic unused;
-  if (!output_name_ends(path, ".glb")) return NULL;
+  if (!output_name_ends(path, ".glb") && !output_name_ends(path, ".vrm")) return NULL;
   sbf_gltf_load_file(path, &(sbf_load_options){.with_images = true}, &asset, &unused);
   return asset;
 }

@@ -60,7 +60,8 @@ static void report(void *user, const sbf_diagnostic *diagnostic) {
 
 static bool is_bundle(const char *path) {
   const char *dot = strrchr(path, '.');
-  if (dot && strcasecmp(dot, ".glb") == 0) return sbf_gltf_has_soft_bodies(path);
+  if (dot && (strcasecmp(dot, ".glb") == 0 || strcasecmp(dot, ".vrm") == 0))
+    return sbf_gltf_has_soft_bodies(path);
   return dot && (strcmp(dot, ".sbf") == 0 || strcmp(dot, ".sbfz") == 0);
 }
 
