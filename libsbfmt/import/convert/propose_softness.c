@@ -48,6 +48,7 @@ typedef enum reason {
   HARD_MATERIAL,
   FACE,
   LIMB,
+  SWINGING,
   SMALL,
   THIN,
   NOT_AMONG_LARGEST,
@@ -56,7 +57,7 @@ typedef enum reason {
 
 static const char *const reason_texts[REASON_COUNT] = {NULL, "as asked", "of a machine",
     "weapons, armour or props", "of hard materials", "head or face", "hands, feet and lower limbs",
-    "too small to show", "too thin to show", "beyond the largest 8"};
+    "on swinging chains", "too small to show", "too thin to show", "beyond the largest 8"};
 
 typedef struct part {
   double thickness, area; /* radius of a ball with the same ratio of volume to area, m; m^2 */
@@ -224,6 +225,13 @@ static void join_twins(const work *w) {
     }
 }
 
+static bool swings(const sbf_asset *asset, uint32_t bone) {
+  for (uint32_t i = 0; i < asset->chains.count; i++)
+    for (uint32_t k = 0; asset->chains.at[i].spring && k < asset->chains.at[i].bones.count; k++)
+      if (asset->chains.at[i].bones.at[k] == bone) return true;
+  return false;
+}
+
 static reason by_kind(const work *w, uint32_t bone) {
   const sbf_asset *asset = w->asset;
   sbfi_name_hint says = name_hint(asset, (int32_t)bone);
@@ -232,6 +240,7 @@ static reason by_kind(const work *w, uint32_t bone) {
   if (p->hard_area > HARD_FRACTION * p->area) return HARD_MATERIAL;
   if (says == SBFI_NAME_HINT_FACE || is_face(asset, (int32_t)bone)) return FACE;
   if (says == SBFI_NAME_HINT_LIMB || is_lower_leg(w, (int32_t)bone)) return LIMB;
+  if (swings(asset, bone)) return SWINGING;
   if (p->area < MIN_AREA * w->area) return SMALL;
   return p->thickness < SHEET_THICKNESS * w->size ? THIN : SOFT;
 }
