@@ -54,6 +54,6 @@ sbf_status sbfi_convert_humanoid(sbfi_conversion *c) {
     if (!write_chain(c, &chains[i], &written[count])) return sbfi_convert_no_memory(c);
     count += written[count].bones.count > 0;
   }
-  c->asset->retarget_chains = (sbf_retarget_chain_list){written, count};
+  c->asset->retarget_chains = (sbf_retarget_chain_list){count ? written : NULL, count};
   return SBF_OK;
 }

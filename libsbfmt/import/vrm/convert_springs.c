@@ -62,7 +62,7 @@ static sbf_status write_colliders(spring_work *w) {
     to->inside = from->inside;
     w->new_colliders[i] = (int32_t)count++;
   }
-  c->asset->chain_colliders = (sbf_chain_collider_list){colliders, count};
+  c->asset->chain_colliders = (sbf_chain_collider_list){count ? colliders : NULL, count};
   return SBF_OK;
 }
 
@@ -120,7 +120,7 @@ static bool write_spring(
   to->gravity = (sbf_vec3_list){lists.gravity, shortened(lists.gravity, count, sizeof(sbf_vec3))};
   to->radius = (sbf_f32_list){lists.radius, shortened(lists.radius, count, sizeof(float))};
   to->center = bone_of(c, from->center);
-  to->colliders = (sbf_u32_list){colliders, collider_count};
+  to->colliders = (sbf_u32_list){collider_count ? colliders : NULL, collider_count};
   return true;
 }
 
@@ -182,7 +182,7 @@ static void drop_proposed(const sbf_asset *a, sbf_chain_list *kept, const uint8_
   if (!overlap) return;
   kept->count = 0; /* there is one at most, a tail or a spine */
   for (uint32_t g = 0; g < a->gaits.count; g++)
-    ((sbf_gait *)(uintptr_t)&a->gaits.at[g])->tails.count = 0; /* the conversion owns the asset */
+    ((sbf_gait *)(uintptr_t)&a->gaits.at[g])->tails = (sbf_tail_list){NULL, 0}; /* the conversion owns it */
 }
 
 sbf_status sbfi_convert_springs(sbfi_conversion *c) {
@@ -210,6 +210,6 @@ sbf_status sbfi_convert_springs(sbfi_conversion *c) {
     status = write_chain(&w, &vrm->springs[i], &chains[count], &written);
     count += written;
   }
-  a->chains = (sbf_chain_list){chains, count};
+  a->chains = (sbf_chain_list){count ? chains : NULL, count};
   return status;
 }
