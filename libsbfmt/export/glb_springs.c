@@ -9,7 +9,7 @@
 #include "motion/quatd.h"
 
 static const double TURN = 6.283185307179586, STEP_S = 1.0 / 60;
-static const double SAME_PLACE = 1e-3; /* fraction of a bone's length between its end and a child there */
+static const double SAME_POINT = 1e-3; /* fraction of a bone's length between its end and a child there */
 
 static float number_of(sbf_f32_list list, uint32_t k) {
   return list.count > 1 ? list.at[k] : list.count ? list.at[0] : 0;
@@ -90,7 +90,7 @@ static int32_t take_end(const sbf_asset *a, uint32_t bone, sbf_vec3 end, uint8_t
     if (a->bones.at[i].parent != (int32_t)bone || taken[i]) continue;
     sbfi_d3 head = sbfi_d3_sub(sbfi_d3_of(a->bones.at[i].head), sbfi_d3_of(a->bones.at[bone].head));
     sbfi_d3 away = sbfi_d3_sub(sbfi_d3_of(in_bone(a, bone, head)), sbfi_d3_of(end));
-    if (sbfi_d3_length(away) > SAME_PLACE * length_of(end)) continue;
+    if (sbfi_d3_length(away) > SAME_POINT * length_of(end)) continue;
     taken[i] = 1;
     return (int32_t)i;
   }
