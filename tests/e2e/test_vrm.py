@@ -232,6 +232,9 @@ class Vrm(ProgramTest):
                     self.assertAlmostEqual(hair[0][name], value, 5)
                 self.assertEqual(nodes[by_name["lock"]["center"]]["name"], "head")
                 self.assertEqual(len(extension["colliders"]), 5 if make is avatar_1 else 3)
+                extended = ["extensions" in collider for collider in extension["colliders"]]
+                self.assertEqual(extended, [False, False, True, True, True] if make is avatar_1 else [False] * 3)
+                self.assertNotIn("inside", str([collider["shape"] for collider in extension["colliders"]]))
             self.good("unpack", self.path("whole.glb"), "-o", self.path("back.sbf"))
             with open(path + ".sbf", "rb") as before, open(self.path("back.sbf"), "rb") as after:
                 self.assertEqual(before.read(), after.read())  # SBF_soft_body states it exactly
