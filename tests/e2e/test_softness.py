@@ -41,6 +41,23 @@ class Softness(ProgramTest):
         self.assertEqual({s["bone"] for s in self.json_of("info", self.calf)["sections"]}, soft)
         self.assertTrue(all(r.get("proposed") == "true" for r in recipes_of(self.calf).values()))
 
+    def test_what_swings_is_not_soft_as_well(self):
+        """Ears of a glTF file with VRMC_springBone move as pendulums; the same ears are soft without."""
+        glb = SkinnedGlb.of(CALF)
+        number = {node["name"]: i for i, node in enumerate(glb.json["nodes"]) if "mesh" not in node}
+        springs = []
+        for ear in ("ear.L", "ear.R"):
+            end = glb.node(ear + "_end", number[ear], translation=[0, 0.1, 0])
+            springs.append({"name": ear, "joints": [{"node": number[ear]}, {"node": end}]})
+        glb.json["extensionsUsed"] = ["VRMC_springBone"]
+        glb.json["extensions"] = {"VRMC_springBone": {"specVersion": "1.0", "springs": springs}}
+        told = self.good("convert", glb.write(self.path("swinging.glb")), "-o", self.path("swinging.sbf"), "--no-build").err
+        self.assertIn("2 on swinging chains", told)
+        soft = soft_of(self.path("swinging.sbf"))
+        self.assertIn("spine", soft)
+        self.assertFalse({"ear.L", "ear.R"} & soft)
+        self.assertTrue({"ear.L", "ear.R"} <= soft_of(self.calf))
+
     def test_rigid_parts_keep_their_hulls_and_joints(self):
         info = self.json_of("info", self.calf)
         self.assertEqual((info["rigid_bodies"], info["joints"]), (22, 21))
