@@ -248,6 +248,16 @@ class Vrm(ProgramTest):
                 for one, other in zip(numbers(bundle.chains[name], "spacing"), numbers(chain, "spacing")):
                     self.assertAlmostEqual(one, other, 5)
 
+    def test_a_packed_character_may_be_called_vrm(self):
+        path = avatar_1(self.path("avatar.vrm"))
+        self.converted(path)
+        self.good("pack", path + ".sbf", "-o", self.path("whole.glb"))
+        os.rename(self.path("whole.glb"), self.path("whole.vrm"))
+        self.good("convert", self.path("whole.vrm"), *SOURCE_PARTS, "-o", self.path("back.sbf"))
+        with open(path + ".sbf", "rb") as before, open(self.path("back.sbf"), "rb") as after:
+            self.assertEqual(before.read(), after.read())
+        self.assertTrue(self.json_of("run", self.path("whole.vrm"), "--seconds", "0.1")["valid"])
+
     def test_a_baked_motion_has_no_springs(self):
         path = avatar_1(self.path("avatar.vrm"))
         self.converted(path)
