@@ -255,6 +255,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_LIMIT", SBF_CODE_IMPORT_LIMIT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The importer exceeded a limit of time, memory or output: raise the limit if the file is trusted."},
   {"IMPORT_HELPER_MISSING", SBF_CODE_IMPORT_HELPER_MISSING, SBF_SEVERITY_ERROR, SBF_FAILED, "The program sbfmt-import cannot be found or run: install it beside sbfmt or set SBFMT_IMPORT_HELPER."},
   {"IMPORT_STREAM", SBF_CODE_IMPORT_STREAM, SBF_SEVERITY_ERROR, SBF_FAILED, "The output of sbfmt-import cannot be read, because it has another version or was truncated: install both programs from one version."},
+  {"IMPORT_PHYSICS", SBF_CODE_IMPORT_PHYSICS, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "KHR_physics_rigid_bodies or KHR_implicit_shapes of the imported glTF file is invalid: correct it in the program that wrote the file."},
   {"IMPORT_MATERIALS_MISSING", SBF_CODE_IMPORT_MATERIALS_MISSING, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A material library or a material of the file is missing, so gray is used: put the library beside the file."},
   {"IMPORT_IGNORED", SBF_CODE_IMPORT_IGNORED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The file has content that the format cannot store, which is skipped: no action is needed if you do not need it."},
   {"IMPORT_POINTS_LEFT_OUT", SBF_CODE_IMPORT_POINTS_LEFT_OUT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Vertices that no polygon uses are left out: join them to polygons if you need them."},

@@ -20,6 +20,7 @@
 #include "import/gait/propose_gait.h"
 #include "import/gait/rest_pose.h"
 #include "import/paper/dialect2012.h"
+#include "import/physics/physics.h"
 #include "import/rigging/rigging.h"
 #include "import/scene/bind_pose.h"
 #include "model/options.h"
@@ -119,7 +120,19 @@ static void report_joined_points(sbfi_conversion *c) {
         (unsigned long long)vertices, (unsigned long long)points);
 }
 
+/* The passes of a file with its own rigid bodies: no gait, no soft parts. */
+static sbf_status run_physics_passes(sbfi_conversion *c) {
+  static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
+      sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes, sbfi_measure_leaf_bones,
+      sbfi_physics_convert, sbfi_convert_clips};
+  sbf_status status = SBF_OK;
+  report_joined_points(c);
+  for (size_t i = 0; i < sizeof passes / sizeof *passes && status == SBF_OK; i++) status = passes[i](c);
+  return status;
+}
+
 static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
+  if (c->physics) return run_physics_passes(c);
   if (c->scene->mesh_count == 0 && !c->rig)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
         "%s has neither a mesh nor a skeleton: there is nothing to convert", c->scene->file);
@@ -161,6 +174,7 @@ static sbf_status read_scene(
  * the file. */
 typedef struct readings {
   const sbfi_scene *scene, *rig;
+  sbfi_physics *physics;
   const sbfi_tet_mesh *tets;
   const sbfi_paper_model *paper;
 } readings;
@@ -171,6 +185,7 @@ static sbf_status convert_readings(
   sbfi_conversion c = {.scene = scene,
       .rig = rig,
       .rig_file = rig != scene ? rig : NULL,
+      .physics = from->physics,
       .options = options,
       .reporter = {options->report, options->user, 0, 0},
       .error = error};
@@ -277,8 +292,11 @@ sbf_status sbf_convert(
     return convert_other_file(input, is_paper, options, asset, error);
   sbfi_scene_options reading = {.allocator = options->allocator, .helper_path = options->import_helper};
   sbfi_scene scene, rig_scene;
+  sbfi_physics *physics = NULL;
   sbf_status status = read_scene(&scene, input, &reading, error);
   if (status != SBF_OK) return status;
+  if (!options->rig) status = sbfi_physics_read(&physics, &scene, options->allocator, error);
+  if (status != SBF_OK) return sbfi_scene_fail(&scene, error, status);
   const sbfi_scene *rig = sbfi_scene_bone_count(&scene) ? &scene : NULL;
   if (options->rig) {
     status = read_scene(&rig_scene, options->rig, &reading, error);
@@ -287,7 +305,10 @@ sbf_status sbf_convert(
           "the rig file %s has no skeleton: use a file with bones", options->rig);
     rig = &rig_scene;
   }
-  if (status == SBF_OK) status = sbfi_convert_scenes(&scene, rig, options, asset, error);
+  if (physics) rig = &scene;
+  const readings from = {.scene = &scene, .rig = rig, .physics = physics};
+  if (status == SBF_OK) status = convert_readings(&from, options, asset, error);
+  sbfi_physics_free(physics);
   if (options->rig) sbfi_scene_free(&rig_scene);
   sbfi_scene_free(&scene);
   return status;

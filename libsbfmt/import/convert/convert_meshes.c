@@ -405,7 +405,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
     else if (status == SBF_OK && c->scene->meshes[i].skin.joint_count && c->asset->bones.count)
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
   }
-  if (status == SBF_OK) status = attach_loose(c, geometries, renders, render_count);
+  if (status == SBF_OK && !c->physics) status = attach_loose(c, geometries, renders, render_count);
   if (status != SBF_OK) return status;
   sbfi_skins skins;
   if (!sbfi_skins_make(&skins, renders, render_count, &c->scratch)) return sbfi_convert_no_memory(c);
@@ -413,6 +413,10 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
     bool skinned = c->scene->meshes[i].skin.joint_count && c->asset->bones.count;
     bool pinned = sbfi_mesh_is_pinned(c, &c->scene->meshes[i]);
     if (geometries[i].is_flat || (skinned && !pinned)) continue;
+    if (c->physics) { /* moved by rigid bodies, and drawn only */
+      status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
+      continue;
+    }
     sbf_soft_body *body = &bodies[body_count++];
     status = fill_body(c, i, skinned, &geometries[i], body);
     if (status == SBF_OK && pinned && !sbfi_pin_body(c, &c->scene->meshes[i], body))
@@ -428,7 +432,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
         "%s has no surface, because none of its polygons has an area: check whether it is scaled to 0, for "
         "example by its unit",
         c->scene->file);
-  if (status == SBF_OK && body_count == 0)
+  if (status == SBF_OK && body_count == 0 && !c->physics)
     sbfi_convert_warn(c, SBF_CODE_RIG_NO_SECTIONS,
         "every mesh is skinned and none is attached to a bone directly: the build cuts sections along the "
         "bones");

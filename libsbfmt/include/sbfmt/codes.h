@@ -266,6 +266,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_LIMIT = 908, /* The importer exceeded a limit of time, memory or output: raise the limit if the file is trusted. */
   SBF_CODE_IMPORT_HELPER_MISSING = 909, /* The program sbfmt-import cannot be found or run: install it beside sbfmt or set SBFMT_IMPORT_HELPER. */
   SBF_CODE_IMPORT_STREAM = 910, /* The output of sbfmt-import cannot be read, because it has another version or was truncated: install both programs from one version. */
+  SBF_CODE_IMPORT_PHYSICS = 911, /* KHR_physics_rigid_bodies or KHR_implicit_shapes of the imported glTF file is invalid: correct it in the program that wrote the file. */
   SBF_CODE_IMPORT_MATERIALS_MISSING = 931, /* A material library or a material of the file is missing, so gray is used: put the library beside the file. */
   SBF_CODE_IMPORT_IGNORED = 932, /* The file has content that the format cannot store, which is skipped: no action is needed if you do not need it. */
   SBF_CODE_IMPORT_POINTS_LEFT_OUT = 933, /* Vertices that no polygon uses are left out: join them to polygons if you need them. */
