@@ -4,6 +4,8 @@
 #include "build/geometry/hulls.h"
 #include "import/physics/physics.h"
 #include "import/scene/trs.h"
+#include "mechanics/extent.h"
+#include "mechanics/vector.h"
 #include "motion/quatd.h"
 #include "sbfmt/mechanics.h"
 
@@ -12,15 +14,20 @@ static const float DENSITY = 1000; /* kg/m^3, of bodies without a mass */
  * one, or, without one, in m^2 per kg. */
 static const float INFINITE_MASS = 1e6f, INFINITE_MOMENT = 1e3f;
 
+/* Thickness of a slab for a flat mesh: at most, m, and relative to its size. */
+static const double SLAB_THICKNESS = 1, SLAB_FRACTION = 0.05;
+
 /* ---- Shapes ---- */
 
-/* Volume integrals of the convex hull of points. */
-static bool add_hull_moments(sbfi_conversion *c, const sbf_vec3 *points, uint32_t count, sbfi_moments *to) {
+/* Adds the volume integrals of the convex hull of points; `*is_flat` is true if they have none. */
+static bool add_hull_moments(
+    sbfi_conversion *c, const sbf_vec3 *points, uint32_t count, sbfi_moments *to, bool *is_flat) {
   sbf_polygon_mesh hull;
   sbf_solid solid;
   sbfi_hull_outcome outcome = sbfi_hull_make(points, count, c->asset, &hull, &c->scratch);
   if (outcome == SBFI_HULL_NO_MEMORY) return sbfi_convert_no_memory(c) == SBF_OK;
-  if (outcome == SBFI_HULL_FLAT) return true;
+  *is_flat = outcome == SBFI_HULL_FLAT;
+  if (*is_flat) return true;
   sbf_solid_measure(&hull, &solid);
   const double moments[3] = {(double)solid.inertia.x, (double)solid.inertia.y, (double)solid.inertia.z};
   const double q[4] = {(double)solid.inertia_rotation.x, (double)solid.inertia_rotation.y,
@@ -40,16 +47,43 @@ static bool add_hull_moments(sbfi_conversion *c, const sbf_vec3 *points, uint32_
   return true;
 }
 
+/* Makes a slab of flat points: adds copies below them. */
+static bool thicken(sbfi_conversion *c, size_t first, sbfi_array *points) {
+  const sbf_vec3 *at = (const sbf_vec3 *)points->at + first;
+  size_t count = points->count - first;
+  sbfi_d3 normal = {0, 0, 0};
+  for (size_t i = 2; i < count; i++) {
+    sbfi_d3 a = sbfi_d3_sub(sbfi_d3_of(at[i - 1]), sbfi_d3_of(at[0]));
+    sbfi_d3 area = sbfi_d3_cross(a, sbfi_d3_sub(sbfi_d3_of(at[i]), sbfi_d3_of(at[0])));
+    if (sbfi_d3_length(area) > sbfi_d3_length(normal)) normal = area;
+  }
+  double size = sbfi_extent((sbf_vec3_list){at, (uint32_t)count});
+  double down = (normal.y < 0 ? 1 : -1) * fmin(SLAB_THICKNESS, SLAB_FRACTION * size);
+  sbf_vec3 step = sbfi_d3_rounded(sbfi_d3_scale(sbfi_d3_normal(normal), down));
+  if (!sbfi_array_push(points, count)) return sbfi_convert_no_memory(c) == SBF_OK;
+  sbf_vec3 *all = (sbf_vec3 *)points->at + first;
+  for (size_t i = 0; i < count; i++)
+    all[count + i] = (sbf_vec3){all[i].x + step.x, all[i].y + step.y, all[i].z + step.z};
+  return true;
+}
+
 static bool add_mesh(
     sbfi_conversion *c, uint32_t node, const sbfi_matrix *world, sbfi_physics_shape *shape) {
-  size_t first = shape->points.count;
-  bool found;
-  if (!sbfi_physics_mesh_points(c->physics, node, &shape->points, &found)) return false;
-  sbf_vec3 *points = (sbf_vec3 *)shape->points.at + first;
-  size_t count = shape->points.count - first;
-  for (size_t i = 0; i < count; i++) points[i] = sbfi_transform_point(world, points[i]);
+  sbfi_array *points = &shape->points;
+  size_t first = points->count;
+  bool found, is_flat = false;
+  if (!sbfi_physics_mesh_points(c->physics, node, points, &found)) return false;
+  sbf_vec3 *at = (sbf_vec3 *)points->at + first;
+  size_t count = points->count - first;
+  for (size_t i = 0; i < count; i++) at[i] = sbfi_transform_point(world, at[i]);
   c->physics->losses[SBFI_LOSS_GEOMETRY] += !found;
-  return count > UINT32_MAX || !count || add_hull_moments(c, points, (uint32_t)count, &shape->moments);
+  if (count > UINT32_MAX / 2 || !count) return true;
+  if (!add_hull_moments(c, at, (uint32_t)count, &shape->moments, &is_flat)) return false;
+  if (!is_flat || count < 3) return true;
+  c->physics->losses[SBFI_LOSS_PLANE]++;
+  return thicken(c, first, points) &&
+         add_hull_moments(
+             c, (sbf_vec3 *)points->at + first, 2 * (uint32_t)count, &shape->moments, &is_flat);
 }
 
 bool sbfi_physics_add_geometry(

@@ -146,14 +146,18 @@ static void find_movers(sbfi_physics *p) {
   }
 }
 
-/* Bones are the nodes with a motion and the joints of skins; without a skin the importer guesses some. */
+/* Bones are the nodes with a motion and, outside them or if there are clips, the joints of skins: below a
+ * motion nothing else moves them. Without a skin the importer guesses some, which are none. */
 static void mark_bones(sbfi_physics *p, sbfi_scene *scene) {
   sbfi_scene_node *nodes = (sbfi_scene_node *)(uintptr_t)scene->nodes; /* the scene is still being made */
   const sbfi_json *skins = list_of(p->file.root, "skins");
   for (uint32_t i = 0; !skins && i < scene->node_count; i++) nodes[i].is_bone = false;
-  for (uint32_t i = 0; i < p->node_count; i++)
-    if (p->nodes[i].mover == (int32_t)i && p->nodes[i].scene_node != SBF_NONE)
-      nodes[p->nodes[i].scene_node].is_bone = true;
+  for (uint32_t i = 0; i < p->node_count; i++) {
+    const sbfi_physics_node *node = &p->nodes[i];
+    if (node->scene_node == SBF_NONE || node->mover == SBF_NONE) continue;
+    bool moves = node->mover == (int32_t)i, is_bone = nodes[node->scene_node].is_bone;
+    nodes[node->scene_node].is_bone = moves || (is_bone && scene->clip_count);
+  }
 }
 
 static bool read(sbfi_physics *p, sbfi_scene *scene, const sbf_allocator *allocator, sbf_diagnostic *error) {

@@ -289,11 +289,18 @@ static int32_t body_of(const sbfi_physics *p, uint32_t node) {
   return mover == SBF_NONE ? SBF_NONE : p->nodes[mover].body;
 }
 
-/* Whether the coordinates only change their signs where the two sides are exchanged. */
+/* Whether the coordinates that are held, limited or driven only change their signs where the two sides are
+ * exchanged: of positions without rotation, and of rotations about a common origin without single swings. */
 static bool may_exchange(const joint_maker *m) {
-  unsigned held = held_targets(m);
-  unsigned lengths = held & 7, angles = held >> AXES;
-  return angles == 7 || (lengths == 7 && (angles & 6) == 6);
+  unsigned held = held_targets(m), lengths = held & 7, angles = held >> AXES;
+  bool swings = (angles & 6) == 2 || (angles & 6) == 4; /* one is held */
+  for (uint32_t i = 0; i < m->limit_count; i++) {
+    const limit_entry *limit = &m->limits[i];
+    bool single = limit->angular && count_axes(limit->axes) == 1 && !holds(limit);
+    swings |= single && lowest_axis(limit->axes) != m->first;
+  }
+  for (uint32_t i = 0; i < m->drive_count; i++) swings |= m->drives[i].angular && m->drives[i].axis != m->first;
+  return angles == 7 || (lengths == 7 && !swings);
 }
 
 static void exchange(joint_maker *m, sbf_joint *joint) {

@@ -4,7 +4,7 @@
 static const char *const texts[SBFI_LOSS_COUNT] = {
     [SBFI_LOSS_COMPOUND] = "bodies of several colliders: one convex hull around all",
     [SBFI_LOSS_CONCAVE] = "concave collision meshes: their convex hulls",
-    [SBFI_LOSS_PLANE] = "planes: slabs below them, infinite ones of 200 m",
+    [SBFI_LOSS_PLANE] = "planes and flat meshes: slabs below them, 200 m wide for infinite planes",
     [SBFI_LOSS_STATIC] = "static colliders: kinematic bodies, which do not collide with bodies of the same file",
     [SBFI_LOSS_GEOMETRY] = "collision shapes that are flat or cannot be read: left out",
     [SBFI_LOSS_SHAPE_TYPE] = "collision shapes of unknown types: left out",
