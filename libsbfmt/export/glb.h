@@ -3,7 +3,8 @@
  * base/text.h prints the JSON, as for all formats: shortest digits, no locale, out of memory is reported. No
  * other feature of a JSON library is needed.
  *
- * Nodes: one per bone, in order; one per written mesh, in order; and, if there are bones, their root. */
+ * Nodes: one per bone, in order; one per written mesh, in order; if there are bones, their root; and those of
+ * rigid bodies and joints. */
 #ifndef SBFI_GLB_H
 #define SBFI_GLB_H
 
@@ -60,6 +61,7 @@ typedef struct sbfi_glb {
   sbfi_glb_mesh *meshes;          /* by render mesh */
   sbfi_glb_affine *bone_motions;  /* (bones) memory for sbfi_glb_compute_offsets; NULL without a motion */
   size_t frame_points;            /* of all render meshes */
+  struct sbfi_glb_rigid *rigid;   /* export/glb_rigid.h; NULL: no rigid bodies */
   uint32_t root_node;             /* parent of the bones */
   bool root_is_joint;             /* it is also the joint of points without a bone */
   bool emissive_strength, texture_transform, texture_webp; /* used extensions */

@@ -1,7 +1,7 @@
 /* Writes bones as nodes, their skin, and the meshes' parents. */
 #include <math.h>
 
-#include "export/glb.h"
+#include "export/glb_rigid.h"
 #include "model/level_mesh.h"
 #include "motion/quatd.h"
 
@@ -112,7 +112,10 @@ static void write_bone(sbfi_glb *g, uint32_t i) {
   for (uint32_t k = 0; k < asset->render_meshes.count; k++)
     if (g->meshes[k].node != UINT32_MAX && g->meshes[k].bone == (int32_t)i)
       add_child(text, g->meshes[k].node, &first);
-  sbfi_text_string(text, first ? "}" : "]}");
+  sbfi_glb_add_rigid_children(g, (int32_t)i, text, &first);
+  if (!first) sbfi_text_char(text, ']');
+  sbfi_glb_write_bone_physics(g, i, text);
+  sbfi_text_char(text, '}');
 }
 
 static void write_mesh_node(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t number) {
@@ -176,12 +179,15 @@ static void write_skin(sbfi_glb *g) {
 void sbfi_glb_write_nodes(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
   uint32_t number = 0;
+  sbfi_glb_plan_rigid(g, g->root_node + (asset->bones.count ? 1 : 0));
   for (uint32_t i = 0; i < asset->bones.count && !g->failed; i++) write_bone(g, i);
   for (uint32_t i = 0; i < asset->render_meshes.count && !g->failed; i++) {
     if (g->meshes[i].node == UINT32_MAX) continue;
     write_mesh_node(g, &g->meshes[i], number++);
   }
-  if (!asset->bones.count) return;
-  write_root(g);
-  write_skin(g);
+  if (asset->bones.count) {
+    write_root(g);
+    write_skin(g);
+  }
+  sbfi_glb_write_rigid_nodes(g);
 }

@@ -284,9 +284,12 @@ static sbf_frame frame_of(const joint_maker *m, uint32_t node, int32_t body) {
       {(float)q[0], (float)q[1], (float)q[2], (float)q[3]}};
 }
 
+/* The body that a node belongs to: of the motion at or above it, or of a static collider there. */
 static int32_t body_of(const sbfi_physics *p, uint32_t node) {
-  int32_t mover = p->nodes[node].mover;
-  return mover == SBF_NONE ? SBF_NONE : p->nodes[mover].body;
+  int32_t up = p->nodes[node].mover;
+  if (up != SBF_NONE) return p->nodes[up].body;
+  for (up = (int32_t)node; up != SBF_NONE && p->nodes[up].body == SBF_NONE;) up = p->nodes[up].parent;
+  return up == SBF_NONE ? SBF_NONE : p->nodes[up].body;
 }
 
 /* Whether the coordinates that are held, limited or driven only change their signs where the two sides are
@@ -401,7 +404,7 @@ static bool make_joint(joint_maker *m, uint32_t node, sbf_joint *joint, bool *ma
         m->name);
   if (!read_description(m, sbfi_json_at(p->joints, (uint32_t)description))) return false;
   int32_t a = body_of(p, node), b = body_of(p, (uint32_t)other);
-  if (a == SBF_NONE && b == SBF_NONE) {
+  if (p->nodes[node].mover == SBF_NONE && p->nodes[other].mover == SBF_NONE) {
     p->losses[SBFI_LOSS_STATIC_JOINT]++;
     return true;
   }
