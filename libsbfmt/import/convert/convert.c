@@ -132,7 +132,7 @@ static sbf_status run_physics_passes(sbfi_conversion *c) {
 }
 
 static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
-  if (c->physics) return run_physics_passes(c);
+  if (c->physics && c->physics->is_simulated) return run_physics_passes(c);
   if (c->scene->mesh_count == 0 && !c->rig)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
         "%s has neither a mesh nor a skeleton: there is nothing to convert", c->scene->file);
@@ -305,7 +305,7 @@ sbf_status sbf_convert(
           "the rig file %s has no skeleton: use a file with bones", options->rig);
     rig = &rig_scene;
   }
-  if (physics) rig = &scene;
+  if (physics && physics->is_simulated) rig = &scene;
   const readings from = {.scene = &scene, .rig = rig, .physics = physics};
   if (status == SBF_OK) status = convert_readings(&from, options, asset, error);
   sbfi_physics_free(physics);

@@ -2,7 +2,8 @@
  * release candidates of 2025 by Khronos. The JSON is untrusted.
  *
  * A node with a motion becomes a bone and a rigid body; the colliders at and below it, up to the next motion,
- * become its hull. Other colliders become kinematic bodies. */
+ * become its hull. Other colliders become kinematic bodies. A file whose moving bodies are all kinematic is
+ * converted as any other, with these bodies and joints; in other files nothing becomes soft. */
 #ifndef SBFI_PHYSICS_H
 #define SBFI_PHYSICS_H
 
@@ -55,6 +56,7 @@ struct sbfi_physics {
   const sbfi_json *shapes, *materials, *filters, *joints; /* NULL: none */
   sbfi_physics_node *nodes;                               /* (node_count), as in the glTF */
   uint32_t node_count;
+  bool is_simulated; /* a body moves by forces, or nothing moves: the file is no animated character */
   uint32_t losses[SBFI_LOSS_COUNT];
 };
 typedef struct sbfi_physics sbfi_physics;

@@ -258,7 +258,6 @@ static bool make_body(body_maker *m, uint32_t node, sbf_rigid_body *body) {
   if (body->hull)
     sbfi_moments_conclude(&m->shape.moments, &body->center, &body->inertia, &body->inertia_rotation);
   body->inertia = (sbf_vec3){0, 0, 0};
-  body->mass = body->hull ? (float)(DENSITY * m->shape.moments.volume) : 0;
   return true;
 }
 

@@ -146,18 +146,38 @@ static void find_movers(sbfi_physics *p) {
   }
 }
 
-/* Bones are the nodes with a motion and, outside them or if there are clips, the joints of skins: below a
- * motion nothing else moves them. Without a skin the importer guesses some, which are none. */
+static void find_simulated(sbfi_physics *p, const sbfi_scene *scene) {
+  bool any_motion = false, any_skin = false;
+  for (uint32_t m = 0; m < scene->mesh_count; m++) any_skin |= scene->meshes[m].skin.joint_count > 0;
+  for (uint32_t i = 0; i < p->node_count; i++) {
+    const sbfi_json *motion = sbfi_json_get(p->nodes[i].physics, "motion");
+    const sbfi_json *kinematic = sbfi_json_get(motion, "isKinematic");
+    if (!motion || p->nodes[i].scene_node == SBF_NONE) continue;
+    any_motion = true;
+    p->is_simulated |= !kinematic || kinematic->type != SBFI_JSON_TRUE;
+  }
+  p->is_simulated |= !any_motion && !any_skin;
+}
+
+/* Bones of a simulated file are the nodes with a motion and, outside them or if there are clips, the joints of skins: below a
+ * motion nothing else moves them. Bones that the importer guesses are none. */
 static void mark_bones(sbfi_physics *p, sbfi_scene *scene) {
   sbfi_scene_node *nodes = (sbfi_scene_node *)(uintptr_t)scene->nodes; /* the scene is still being made */
   const sbfi_json *skins = list_of(p->file.root, "skins");
-  for (uint32_t i = 0; !skins && i < scene->node_count; i++) nodes[i].is_bone = false;
-  for (uint32_t i = 0; i < p->node_count; i++) {
-    const sbfi_physics_node *node = &p->nodes[i];
-    if (node->scene_node == SBF_NONE || node->mover == SBF_NONE) continue;
-    bool moves = node->mover == (int32_t)i, is_bone = nodes[node->scene_node].is_bone;
-    nodes[node->scene_node].is_bone = moves || (is_bone && scene->clip_count);
+  for (uint32_t i = 0; p->is_simulated && i < scene->node_count; i++) nodes[i].is_bone = false;
+  for (uint32_t s = 0; p->is_simulated && skins && s < skins->count; s++) {
+    const sbfi_json *joints = list_of(sbfi_json_at(skins, s), "joints");
+    for (uint32_t k = 0; joints && k < joints->count; k++) {
+      uint32_t joint;
+      bool is_node = sbfi_json_u32(sbfi_json_at(joints, k), &joint) && joint < p->node_count;
+      if (!is_node || p->nodes[joint].scene_node == SBF_NONE) continue;
+      if (p->nodes[joint].mover == SBF_NONE || scene->clip_count)
+        nodes[p->nodes[joint].scene_node].is_bone = true;
+    }
   }
+  for (uint32_t i = 0; i < p->node_count; i++)
+    if (p->nodes[i].mover == (int32_t)i && p->nodes[i].scene_node != SBF_NONE)
+      nodes[p->nodes[i].scene_node].is_bone = true;
 }
 
 static bool read(sbfi_physics *p, sbfi_scene *scene, const sbf_allocator *allocator, sbf_diagnostic *error) {
@@ -184,6 +204,7 @@ static bool read(sbfi_physics *p, sbfi_scene *scene, const sbf_allocator *alloca
   }
   if (!find_parents(p) || !match_scene(p, scene)) return false;
   find_movers(p);
+  find_simulated(p, scene);
   mark_bones(p, scene);
   return true;
 }

@@ -45,7 +45,7 @@ static bool make_all_rigid(sbfi_conversion *c) {
 }
 
 sbf_status sbfi_physics_convert(sbfi_conversion *c) {
-  if (!make_all_rigid(c) || !sbfi_physics_convert_bodies(c) || !sbfi_physics_convert_joints(c))
+  if ((c->physics->is_simulated && !make_all_rigid(c)) || !sbfi_physics_convert_bodies(c) || !sbfi_physics_convert_joints(c))
     return sbf_code_find(c->error->code)->fault;
   sbfi_physics_report(c);
   return SBF_OK;
