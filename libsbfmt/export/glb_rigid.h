@@ -47,6 +47,7 @@ void sbfi_glb_write_rigid_nodes(sbfi_glb *g);
 void sbfi_glb_write_rigid_tops(const sbfi_glb *g, sbfi_text *json, bool *first);
 /* The document's extensions, after a comma unless `first`. */
 void sbfi_glb_write_rigid_document(const sbfi_glb *g, sbfi_text *json, bool first);
+/* Whether there are rigid bodies to write. A recorded motion moves the bones itself and has none. */
 bool sbfi_glb_has_rigid(const sbfi_glb *g);
 
 /* The item of the list of joints for a joint: limits and drives. */

@@ -7,7 +7,7 @@
 static const char RIGID_BODIES[] = "KHR_physics_rigid_bodies";
 
 bool sbfi_glb_has_rigid(const sbfi_glb *g) {
-  return g->e->asset->rigid_bodies.count > 0;
+  return g->e->asset->rigid_bodies.count > 0 && !g->e->motion;
 }
 
 /* ---- Materials and filters ---- */

@@ -159,6 +159,20 @@ static void find_simulated(sbfi_physics *p, const sbfi_scene *scene) {
   p->is_simulated |= !any_motion && !any_skin;
 }
 
+/* The other node of a joint, or SBF_NONE. */
+static int32_t connected_node(const sbfi_physics *p, uint32_t node) {
+  uint32_t other;
+  const sbfi_json *joint = sbfi_json_get(p->nodes[node].physics, "joint");
+  bool is_node = sbfi_json_u32(sbfi_json_get(joint, "connectedNode"), &other) && other < p->node_count;
+  return is_node ? (int32_t)other : SBF_NONE;
+}
+
+/* A node without children that only places a joint is no bone. */
+static void unmark_frame(const sbfi_physics *p, sbfi_scene_node *nodes, uint32_t node) {
+  if (p->nodes[node].scene_node != SBF_NONE && !sbfi_json_get(p->nodes[node].json, "children"))
+    nodes[p->nodes[node].scene_node].is_bone = false;
+}
+
 /* Bones of a simulated file are the nodes with a motion and, outside them or if there are clips, the joints of skins: below a
  * motion nothing else moves them. Bones that the importer guesses are none. */
 static void mark_bones(sbfi_physics *p, sbfi_scene *scene) {
@@ -174,6 +188,12 @@ static void mark_bones(sbfi_physics *p, sbfi_scene *scene) {
       if (p->nodes[joint].mover == SBF_NONE || scene->clip_count)
         nodes[p->nodes[joint].scene_node].is_bone = true;
     }
+  }
+  for (uint32_t i = 0; !p->is_simulated && i < p->node_count; i++) {
+    int32_t other = connected_node(p, i);
+    if (other == SBF_NONE) continue;
+    unmark_frame(p, nodes, i);
+    unmark_frame(p, nodes, (uint32_t)other);
   }
   for (uint32_t i = 0; i < p->node_count; i++)
     if (p->nodes[i].mover == (int32_t)i && p->nodes[i].scene_node != SBF_NONE)
