@@ -1,8 +1,8 @@
 /* Rigid bodies and joints in a glTF file: KHR_physics_rigid_bodies.
  *
  * The first rigid body of a bone is the motion of the bone's node; others get nodes of their own. A kinematic
- * body without a bone is static: a collider without a motion. Each joint has two nodes, its attachment frames.
- * Hulls are meshes of nodes outside the scene, so that viewers do not show them. */
+ * body without a bone is static: a collider without a motion. Each joint has two nodes, its attachment
+ * frames. Hulls are meshes of nodes outside the scene, so that viewers do not show them. */
 #ifndef SBFI_GLB_RIGID_H
 #define SBFI_GLB_RIGID_H
 

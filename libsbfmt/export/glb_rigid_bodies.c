@@ -64,7 +64,8 @@ static void choose_shared(sbfi_glb *g, uint32_t i, uint32_t used_layers) {
   bool filtered = body->layer != 1 || (used_layers & ~body->mask) != 0;
   for (uint32_t k = 0; k < i; k++) {
     if (r->bodies[k].material >= 0 && equals_material(body, &all[k])) to->material = r->bodies[k].material;
-    if (filtered && r->bodies[k].filter >= 0 && equals_filter(body, &all[k])) to->filter = r->bodies[k].filter;
+    if (filtered && r->bodies[k].filter >= 0 && equals_filter(body, &all[k]))
+      to->filter = r->bodies[k].filter;
   }
   if (to->material == SBF_NONE) {
     to->material = (int32_t)r->material_count;
@@ -170,10 +171,10 @@ static void write_motion(const sbfi_glb *g, uint32_t i, sbfi_text *text) {
   sbf_rigid_measures is;
   float at[3], rotation[4];
   sbf_rigid_body_measure(body, &is);
-  sbfi_glb_compute_local((sbfi_glb_transform){is.center, is.inertia_rotation}, &g->rigid->bodies[i].transform,
-      at, rotation);
-  sbfi_export_print(text, "\"motion\":{\"isKinematic\":%s",
-      body->motion == SBF_BODY_MOTION_KINEMATIC ? "true" : "false");
+  sbfi_glb_compute_local(
+      (sbfi_glb_transform){is.center, is.inertia_rotation}, &g->rigid->bodies[i].transform, at, rotation);
+  sbfi_export_print(
+      text, "\"motion\":{\"isKinematic\":%s", body->motion == SBF_BODY_MOTION_KINEMATIC ? "true" : "false");
   if (is.mass > 0) {
     sbfi_text_string(text, ",\"mass\":");
     sbfi_text_f32(text, (float)is.mass);
@@ -212,8 +213,7 @@ void sbfi_glb_write_bone_physics(sbfi_glb *g, uint32_t bone, sbfi_text *text) {
     if (!g->rigid->bodies[i].own_node && g->rigid->bodies[i].node == bone) write_extension(g, i, text);
 }
 
-static void write_local(
-    sbfi_text *text, sbfi_glb_transform own, const sbfi_glb_transform *parent) {
+static void write_local(sbfi_text *text, sbfi_glb_transform own, const sbfi_glb_transform *parent) {
   float translation[3], rotation[4];
   sbfi_glb_compute_local(own, parent, translation, rotation);
   write_vec3(text, "translation", translation);
@@ -263,8 +263,8 @@ static uint32_t write_hull_mesh(sbfi_glb *g, uint32_t i) {
   uint32_t positions = sbfi_glb_accessor(g, points, count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
   uint32_t indices = sbfi_glb_accessor(g, corners, to, SBFI_GLB_UINT, SBFI_GLB_INDICES);
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_MESHES, &number);
-  sbfi_export_print(text, "{\"primitives\":[{\"attributes\":{\"POSITION\":%u},\"indices\":%u}]}", positions,
-      indices);
+  sbfi_export_print(
+      text, "{\"primitives\":[{\"attributes\":{\"POSITION\":%u},\"indices\":%u}]}", positions, indices);
   return number;
 }
 

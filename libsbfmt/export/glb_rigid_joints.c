@@ -1,4 +1,5 @@
-/* Writes limits and drives of a joint as those of KHR_physics_rigid_bodies, whose X axis is the twist axis. */
+/* Writes limits and drives of a joint as those of KHR_physics_rigid_bodies, whose X axis is the twist axis.
+ */
 #include <math.h>
 
 #include "export/glb_rigid.h"
@@ -40,11 +41,11 @@ static void write_limit(item_writer *w, bool angular, unsigned axes, const sbf_l
   sbfi_text_char(w->text, '}');
 }
 
-static void write_held(item_writer *w, const sbf_joint *joint) {
+static void write_locked(item_writer *w, const sbf_joint *joint) {
   const sbf_limit none = {.min = 0, .max = 0};
-  unsigned held = sbfi_joint_is_locked(joint->kind);
-  write_limit(w, false, held & 7, &none);
-  write_limit(w, true, held >> SBF_JOINT_AXIS_TWIST & 7, &none);
+  unsigned locked = sbfi_joint_is_locked(joint->kind);
+  write_limit(w, false, locked & 7, &none);
+  write_limit(w, true, locked >> SBF_JOINT_AXIS_TWIST & 7, &none);
 }
 
 /* Length of a distance joint at rest. */
@@ -109,7 +110,7 @@ void sbfi_glb_write_rigid_joint(sbfi_glb *g, const sbf_joint *joint) {
   sbfi_text_string(text, g->rigid->joint_count++ ? ",{\"name\":" : "{\"name\":");
   sbfi_glb_write_string(text, *joint->name ? joint->name : joint->id);
   sbfi_text_string(text, ",\"limits\":[");
-  write_held(&limits, joint);
+  write_locked(&limits, joint);
   write_limits(g, &limits, joint);
   sbfi_text_string(text, "],\"drives\":[");
   write_drives(g, &drives, joint);

@@ -123,8 +123,8 @@ static void report_unsupported(const sbfi_glb *g) {
     inherit += !a->bones.at[i].inherit_rotation || !a->bones.at[i].inherit_scale;
   const sbfi_left_out things[] = {{a->soft_bodies.count, "soft bodies"},
       {g->e->motion ? a->rigid_bodies.count : 0, "rigid bodies"},
-      {g->e->motion ? a->joints.count : 0, "joints between them"},
-      {losses[SBFI_RIGID_PULLEYS], "pulleys"}, {losses[SBFI_RIGID_BREAKING], "breaking forces of joints"},
+      {g->e->motion ? a->joints.count : 0, "joints between them"}, {losses[SBFI_RIGID_PULLEYS], "pulleys"},
+      {losses[SBFI_RIGID_BREAKING], "breaking forces of joints"},
       {losses[SBFI_RIGID_BOUNCING_LIMITS], "restitutions of joint limits"},
       {losses[SBFI_RIGID_DRIVES], "drives of cones and distances"},
       {a->ik_chains.count, "inverse kinematics"}, {a->gaits.count, "gaits"}, {a->chains.count, "chains"},

@@ -69,18 +69,23 @@ class ClosedForms(RigidTest):
             self.assertAlmostEqual(height, 100 - 0.5 * GRAVITY * factor * time**2, delta=2e-3)
 
     def test_a_hinge_swings_with_the_period_of_a_pendulum(self):
-        scene, angle, length = Scene(), 0.05, 1.0
+        scene, angle, length = Scene(), 0.4, 1.0
         turn = [0, 0, math.sin(angle / 2), math.cos(angle / 2)]
-        # A rod of two cubes' length hangs from a pivot; it starts at a small angle about Z.
+        # A rod of two cubes' length hangs from a pivot; it starts at an angle about Z.
         body = scene.body("rod", at=(length * math.sin(angle), 50 - length * math.cos(angle), 0), rotation=turn, mass=3,
                           collider=scene.shape("box", size=[0.2, 2, 0.2]))
         scene.joint(body, None, [LINEAR, {"angularAxes": [0, 1], "min": 0, "max": 0}], at=(0, length, 0), other_at=(0, 50, 0))
         bundle, _ = self.convert(scene)
         self.assertEqual([joint.tag for joint in self.parts(bundle)[1]], ["revolute_joint"])
         inertia = 3 * (0.2**2 + 2**2) / 12 + 3 * length**2
-        rate = math.sqrt(3 * GRAVITY * length / inertia)
-        for time, _, (_, _, z, w) in self.motion(bundle, 4)["rod"]:
-            self.assertAlmostEqual(2 * math.atan2(z, w), angle * math.cos(rate * time), delta=0.03 * angle)
+        # The first terms of the elliptic integral.
+        period = 2 * math.pi * math.sqrt(inertia / (3 * GRAVITY * length)) * (1 + angle**2 / 16 + 11 * angle**4 / 3072)
+        swing = [(time, 2 * math.atan2(z, w)) for time, _, (_, _, z, w) in self.motion(bundle, 6)["rod"]]
+        zeros = [t + (u - t) * a / (a - b) for (t, a), (u, b) in zip(swing, swing[1:]) if a * b < 0]
+        self.assertGreater(len(zeros), 4)
+        self.assertAlmostEqual(zeros[0], period / 4, delta=2e-3 * period)
+        for before, after in zip(zeros, zeros[1:]):
+            self.assertAlmostEqual(after - before, period / 2, delta=2e-3 * period)
 
     def test_a_slider_stops_at_its_limit(self):
         scene = Scene()
@@ -101,8 +106,10 @@ class ClosedForms(RigidTest):
         spring = {"linearAxes": [1], "min": 0, "max": 0, "stiffness": stiffness}
         scene.joint(body, None, [{"linearAxes": [0, 2], "min": 0, "max": 0}, spring, ANGULAR], other_at=(0, 50, 0))
         rate, sag = math.sqrt(stiffness / mass), mass * GRAVITY / stiffness
-        for time, (_, height, _), _ in self.motion(self.convert(scene)[0], 1.5)["weight"]:
-            self.assertAlmostEqual(height, 50 - sag * (1 - math.cos(rate * time)), delta=0.06 * sag)
+        heights = [(time, at[1]) for time, at, _ in self.motion(self.convert(scene)[0], 6)["weight"]]
+        lows = [(u, b) for (_, a), (u, b), (_, c) in zip(heights, heights[1:], heights[2:]) if b <= a and b < c]
+        self.assertAlmostEqual(lows[0][1], 50 - 2 * sag, delta=0.05 * sag)  # steps take some of the energy
+        self.assertAlmostEqual((lows[-1][0] - lows[0][0]) / (len(lows) - 1), 2 * math.pi / rate, delta=0.01)
 
     def test_drives_reach_their_targets(self):
         scene = Scene()
@@ -432,7 +439,7 @@ class Samples(RigidTest):
                           "revolute", "prismatic"])
 
     def test_joints_move_as_they_say(self):
-        moves = self.motion(self.bundle("JointTypes.glb"), 3)
+        moves = self.motion(self.bundle("JointTypes.glb"), 6)
         for value, wanted in zip(moves["Cube.011"][-1][1], (0.25, 2.3, 0)):  # fixed
             self.assertAlmostEqual(value, wanted, delta=1e-3)
         self.assertAlmostEqual(moves["Cube.007"][-1][1][1], 2.5, delta=2e-3)  # slides down to its limit
@@ -440,7 +447,7 @@ class Samples(RigidTest):
             self.assertAlmostEqual(at[2], 0, delta=1e-3)  # hinges about Z
         (t, _, p), (u, _, q) = moves["Cube.017"][-10], moves["Cube.017"][-1]
         speed = 2 * math.remainder(math.atan2(q[2], q[3]) - math.atan2(p[2], p[3]), math.pi) / (u - t)
-        self.assertAlmostEqual(speed, -1.57, delta=0.02)
+        self.assertAlmostEqual(speed, -1.57, delta=0.12)  # its weight is 0.3 mm off the hinge
 
     def test_motions_are_as_stated(self):
         bundle = self.bundle("MotionProperties.glb")

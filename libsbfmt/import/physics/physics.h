@@ -44,7 +44,7 @@ typedef struct sbfi_physics_node {
   const sbfi_json *physics; /* the node's extension; NULL: it has none */
   int32_t parent;           /* glTF node above, or SBF_NONE */
   int32_t scene_node;       /* SBF_NONE: the node is not in the scene */
-  int32_t mover;            /* the node with a motion at or above this one; SBF_NONE: the node is static */
+  int32_t moving_node;      /* the node with a motion at or above this one; SBF_NONE: the node is static */
   int32_t body;             /* rigid body of the node's motion or static collider, or SBF_NONE */
 } sbfi_physics_node;
 
@@ -121,8 +121,8 @@ bool sbfi_physics_add_geometry(
 /* Adds a shape of KHR_implicit_shapes under `to_asset`. */
 bool sbfi_physics_add_implicit(
     sbfi_physics *p, uint32_t index, const sbfi_matrix *to_asset, sbfi_physics_shape *shape);
-/* Adds the corners of meshes of a node and of the nodes below it; `*found` is false if there are none that can
- * be read. */
+/* Adds the corners of meshes of a node and of the nodes below it; `*found` is false if there are none that
+ * can be read. */
 bool sbfi_physics_mesh_points(sbfi_physics *p, uint32_t node, sbfi_array *points, bool *found);
 /* Adds moments under a linear map and a translation. */
 void sbfi_moments_add(sbfi_moments *to, const sbfi_moments *local, const sbfi_matrix *to_asset);
@@ -135,7 +135,7 @@ sbfi_matrix sbfi_physics_world(const sbfi_conversion *c, uint32_t node);
 bool sbfi_physics_local(const sbfi_physics *p, uint32_t node, sbfi_matrix *local);
 
 /* Mass of the motion along or about one coordinate of a joint in the rest pose, kg or kg m^2, with the
- * `locked` coordinates held: the inverse of the Schur complement of J M^-1 J^T. 0: nothing can move. */
+ * `locked` coordinates locked: the inverse of the Schur complement of J M^-1 J^T. 0: nothing can move. */
 double sbfi_physics_effective_mass(
     const sbf_asset *asset, const sbf_joint *joint, unsigned locked, sbf_joint_axis axis);
 

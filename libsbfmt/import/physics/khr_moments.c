@@ -31,8 +31,7 @@ void sbfi_moments_conclude(const sbfi_moments *moments, sbf_vec3 *center, sbf_ve
   double at[3], about[9], vectors[9], trace = 0;
   for (int k = 0; k < 3; k++) at[k] = moments->first[k] / moments->volume;
   for (int r = 0; r < 3; r++)
-    for (int c = 0; c < 3; c++)
-      about[3 * r + c] = -(moments->second[r][c] - moments->volume * at[r] * at[c]);
+    for (int c = 0; c < 3; c++) about[3 * r + c] = -(moments->second[r][c] - moments->volume * at[r] * at[c]);
   for (int k = 0; k < 3; k++) trace -= about[4 * k];
   for (int k = 0; k < 3; k++) about[4 * k] += trace;
   sbfi_symmetric_compute_eigen(3, about, vectors);

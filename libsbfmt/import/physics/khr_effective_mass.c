@@ -1,7 +1,7 @@
-/* Effective mass of a joint's motion in the rest pose, for drives that state accelerations. With the rows J of
- * the moving coordinate and of the held ones, A = J M^-1 J^T and the row r of the moving one:
- * m = 1 / (A_rr - A_rh A_hh^-1 A_hr) (K. Erleben, Stable, Robust, and Versatile Multibody Dynamics Animation,
- * 2004, chapter 7). */
+/* Effective mass of a joint's motion in the rest pose, for drives that state accelerations. With the rows J
+ * of the moving coordinate and of the locked ones, A = J M^-1 J^T and the row r of the moving one: m = 1 /
+ * (A_rr - A_rh A_hh^-1 A_hr) (K. Erleben, Stable, Robust, and Versatile Multibody Dynamics Animation, 2004,
+ * chapter 7). */
 #include <math.h>
 
 #include "import/physics/physics.h"
@@ -64,7 +64,7 @@ double sbfi_physics_effective_mass(
     fill_rows((const double(*)[3])axes, arm, rows);
     add_body(of, (const double(*)[6])rows, a);
   }
-  /* Eliminates the held coordinates one after the other. */
+  /* Eliminates the locked coordinates one after the other. */
   for (unsigned h = 0; h < COORDINATES; h++) {
     if (!(locked >> h & 1) || h == (unsigned)axis || !(a[h][h] > 1e-12)) continue;
     for (int i = 0; i < COORDINATES; i++)

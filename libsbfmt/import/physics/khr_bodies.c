@@ -10,8 +10,8 @@
 #include "sbfmt/mechanics.h"
 
 static const float DENSITY = 1000; /* kg/m^3, of bodies without a mass */
-/* Mass of a body that states an infinite one, kg; an infinite moment of inertia relative to the largest finite
- * one, or, without one, in m^2 per kg. */
+/* Mass of a body that states an infinite one, kg; an infinite moment of inertia relative to the largest
+ * finite one, or, without one, in m^2 per kg. */
 static const float INFINITE_MASS = 1e6f, INFINITE_MOMENT = 1e3f;
 
 /* Thickness of a slab for a flat mesh: at most, m, and relative to its size. */
@@ -67,8 +67,7 @@ static bool thicken(sbfi_conversion *c, size_t first, sbfi_array *points) {
   return true;
 }
 
-static bool add_mesh(
-    sbfi_conversion *c, uint32_t node, const sbfi_matrix *world, sbfi_physics_shape *shape) {
+static bool add_mesh(sbfi_conversion *c, uint32_t node, const sbfi_matrix *world, sbfi_physics_shape *shape) {
   sbfi_array *points = &shape->points;
   size_t first = points->count;
   bool found, is_flat = false;
@@ -82,8 +81,7 @@ static bool add_mesh(
   if (!is_flat || count < 3) return true;
   c->physics->losses[SBFI_LOSS_PLANE]++;
   return thicken(c, first, points) &&
-         add_hull_moments(
-             c, (sbf_vec3 *)points->at + first, 2 * (uint32_t)count, &shape->moments, &is_flat);
+         add_hull_moments(c, (sbf_vec3 *)points->at + first, 2 * (uint32_t)count, &shape->moments, &is_flat);
 }
 
 bool sbfi_physics_add_geometry(
@@ -160,8 +158,8 @@ static bool read_motion(
   float com[3], inertia[3], orientation[4] = {0, 0, 0, 1}, linear[3] = {0}, angular[3] = {0};
   bool kinematic;
   if (!sbfi_physics_flag(p, motion, "isKinematic", &kinematic) ||
-      !sbfi_physics_number_from(p, motion, "mass", -1, sbfi_json_get(motion, "mass") ? 0 : -1, false,
-          &body->mass) ||
+      !sbfi_physics_number_from(
+          p, motion, "mass", -1, sbfi_json_get(motion, "mass") ? 0 : -1, false, &body->mass) ||
       !sbfi_physics_numbers(p, motion, "centerOfMass", 3, com) ||
       !sbfi_physics_numbers(p, motion, "inertiaDiagonal", 3, inertia) ||
       !sbfi_physics_numbers(p, motion, "inertiaOrientation", 4, orientation) ||
@@ -186,8 +184,8 @@ static bool read_motion(
   if (!stated_inertia) return true;
   for (int k = 0; k < 3; k++)
     if (inertia[k] < 0)
-      return sbfi_physics_fault(p, "a moment of inertia of node %u is %g and must not be negative", node,
-          (double)inertia[k]);
+      return sbfi_physics_fault(
+          p, "a moment of inertia of node %u is %g and must not be negative", node, (double)inertia[k]);
   body->inertia = (sbf_vec3){inertia[0], inertia[1], inertia[2]};
   body->inertia_rotation = rotation_of(&world, orientation);
   make_infinite(p, body);
@@ -223,10 +221,10 @@ static bool make_hull(body_maker *m, sbf_rigid_body *body) {
   sbf_polygon_mesh *hull = sbfi_convert_allocate(c, 1, sizeof *hull);
   if (!hull) return sbfi_convert_no_memory(c) == SBF_OK;
   c->physics->losses[SBFI_LOSS_COMPOUND] += m->colliders > 1;
-  sbfi_hull_outcome outcome = m->shape.points.count > UINT32_MAX
-                                  ? SBFI_HULL_NO_MEMORY
-                                  : sbfi_hull_make(m->shape.points.at, (uint32_t)m->shape.points.count,
-                                        c->asset, hull, &c->scratch);
+  sbfi_hull_outcome outcome =
+      m->shape.points.count > UINT32_MAX
+          ? SBFI_HULL_NO_MEMORY
+          : sbfi_hull_make(m->shape.points.at, (uint32_t)m->shape.points.count, c->asset, hull, &c->scratch);
   if (outcome == SBFI_HULL_NO_MEMORY) return sbfi_convert_no_memory(c) == SBF_OK;
   hull->target = SBF_MESH_TARGET_COLLISION_DETECTION;
   if (outcome == SBFI_HULL_MADE) body->hull = hull;
@@ -239,11 +237,12 @@ static bool make_body(body_maker *m, uint32_t node, sbf_rigid_body *body) {
   sbfi_conversion *c = m->c;
   const sbfi_physics *p = c->physics;
   const int32_t scene_node = p->nodes[node].scene_node;
-  bool moves = p->nodes[node].mover == (int32_t)node;
+  bool moves = p->nodes[node].moving_node == (int32_t)node;
   m->shape.points.count = m->colliders = 0;
   m->shape.moments = (sbfi_moments){0};
   for (uint32_t i = 0; i < p->node_count; i++)
-    if ((i == node || (moves && p->nodes[i].mover == (int32_t)node)) && !add_collider(m, i)) return false;
+    if ((i == node || (moves && p->nodes[i].moving_node == (int32_t)node)) && !add_collider(m, i))
+      return false;
   sbf_rigid_body_init(body);
   body->name = sbf_asset_copy_text(c->asset, c->scene->nodes[scene_node].name);
   body->id = sbfi_new_id(c, "rigid", body->name);
@@ -273,10 +272,11 @@ bool sbfi_physics_convert_bodies(sbfi_conversion *c) {
   for (int pass = 0; pass < 2; pass++)
     for (uint32_t i = 0; good && i < p->node_count; i++) {
       sbfi_physics_node *node = &p->nodes[i];
-      bool moves = node->mover == (int32_t)i;
+      bool moves = node->moving_node == (int32_t)i;
       if (node->scene_node == SBF_NONE) continue;
       if (pass == 0) p->losses[SBFI_LOSS_TRIGGER] += sbfi_json_get(node->physics, "trigger") != NULL;
-      if (pass == 0 ? !moves : node->mover != SBF_NONE || !sbfi_json_get(node->physics, "collider")) continue;
+      if (pass == 0 ? !moves : node->moving_node != SBF_NONE || !sbfi_json_get(node->physics, "collider"))
+        continue;
       good = make_body(&m, i, &bodies[count]);
       if (!good || (!moves && !bodies[count].hull)) continue;
       p->losses[SBFI_LOSS_STATIC] += !moves;

@@ -11,7 +11,8 @@ static bool check_list(const sbfi_physics *p, const sbfi_json *filter, const cha
   bool good = !list || list->type == SBFI_JSON_ARRAY;
   for (uint32_t i = 0; list && good && i < list->count; i++)
     good = sbfi_json_at(list, i)->type == SBFI_JSON_STRING;
-  return good || sbfi_physics_fault(p, "`%s` at byte %zu of the JSON is no list of names", name, list->offset);
+  return good ||
+         sbfi_physics_fault(p, "`%s` at byte %zu of the JSON is no list of names", name, list->offset);
 }
 
 static bool has_name(const sbfi_json *list, const sbfi_json *name) {

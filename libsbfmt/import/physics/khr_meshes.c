@@ -81,8 +81,7 @@ static bool add_stored_meshes(sbfi_physics *p, uint32_t node, sbfi_array *points
 
 bool sbfi_physics_mesh_points(sbfi_physics *p, uint32_t node, sbfi_array *points, bool *found) {
   *found = false;
-  if (p->nodes[node].scene_node != SBF_NONE &&
-      !add_scene_meshes(p, p->nodes[node].scene_node, points, found))
+  if (p->nodes[node].scene_node != SBF_NONE && !add_scene_meshes(p, p->nodes[node].scene_node, points, found))
     return false;
   return *found || add_stored_meshes(p, node, points, found);
 }

@@ -1,8 +1,8 @@
 /* Joints from limits and drives.
  *
- * A joint of the extension has up to six coordinates: position and rotation of the connected node in the frame
- * of the joint's node. Ours are the same, with +X as the twist axis: a cyclic exchange of the axes brings the
- * joint's main axis there. */
+ * A joint of the extension has up to six coordinates: position and rotation of the connected node in the
+ * frame of the joint's node. Ours are the same, with +X as the twist axis: a cyclic exchange of the axes
+ * brings the joint's main axis there. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -33,7 +33,7 @@ typedef struct joint_maker {
   limit_entry limits[MAX_LIMITS];
   drive_entry drives[MAX_DRIVES];
   uint32_t limit_count, drive_count;
-  unsigned locked; /* bits 0 to 5: coordinates held at 0, by the node's own axes */
+  unsigned locked; /* bits 0 to 5: coordinates locked at 0, by the node's own axes */
   uint32_t first;  /* the node's axis that becomes +X */
   sbf_limit made_limits[2 * MAX_LIMITS];
   sbf_drive made_drives[MAX_DRIVES + 3 * MAX_LIMITS];
@@ -79,8 +79,9 @@ static bool read_limit(const sbfi_physics *p, const sbfi_json *json, limit_entry
       !sbfi_physics_number_from(p, json, "damping", 0, 0, false, &limit->damping))
     return false;
   return limit->min <= limit->max ||
-         sbfi_physics_fault(p, "the limit at byte %zu of the JSON has a minimum of %g above its maximum of %g",
-             json->offset, (double)limit->min, (double)limit->max);
+         sbfi_physics_fault(p,
+             "the limit at byte %zu of the JSON has a minimum of %g above its maximum of %g", json->offset,
+             (double)limit->min, (double)limit->max);
 }
 
 static bool read_drive(sbfi_physics *p, const sbfi_json *json, drive_entry *drive, bool *known) {
@@ -136,17 +137,17 @@ static void find_locked(joint_maker *m) {
     if (holds(&m->limits[i])) m->locked |= m->limits[i].axes << (m->limits[i].angular ? AXES : 0);
 }
 
-/* The axis that becomes +X: of a cone, of the only rotation that is free, of the only one that is held, of the
- * only free translation, or of the only held one. */
+/* The axis that becomes +X: of a cone, of the only rotation that is free, of the only one that is locked, of
+ * the only free translation, or of the only locked one. */
 static uint32_t find_first(const joint_maker *m) {
-  unsigned held_angles = m->locked >> AXES, held_lengths = m->locked & 7;
+  unsigned locked_angles = m->locked >> AXES, locked_lengths = m->locked & 7;
   for (uint32_t i = 0; i < m->limit_count; i++)
     if (m->limits[i].angular && count_axes(m->limits[i].axes) == 2 && !holds(&m->limits[i]))
       return lowest_axis(~m->limits[i].axes & 7);
-  if (count_axes(held_angles) == 2) return lowest_axis(~held_angles & 7);
-  if (count_axes(held_angles) == 1) return lowest_axis(held_angles);
-  if (count_axes(held_lengths) == 2) return lowest_axis(~held_lengths & 7);
-  if (count_axes(held_lengths) == 1) return lowest_axis(held_lengths);
+  if (count_axes(locked_angles) == 2) return lowest_axis(~locked_angles & 7);
+  if (count_axes(locked_angles) == 1) return lowest_axis(locked_angles);
+  if (count_axes(locked_lengths) == 2) return lowest_axis(~locked_lengths & 7);
+  if (count_axes(locked_lengths) == 1) return lowest_axis(locked_lengths);
   unsigned limited = 0;
   for (uint32_t i = 0; i < m->limit_count; i++)
     if (m->limits[i].angular && count_axes(m->limits[i].axes) == 1) limited |= m->limits[i].axes;
@@ -157,12 +158,12 @@ static sbf_joint_axis target_of(const joint_maker *m, bool angular, uint32_t axi
   return (sbf_joint_axis)((axis + AXES - m->first) % AXES + (angular ? AXES : 0));
 }
 
-/* The coordinates that are held, in the joint's own order. */
-static unsigned held_targets(const joint_maker *m) {
-  unsigned held = 0;
+/* The coordinates that are locked, in the joint's own order. */
+static unsigned locked_targets(const joint_maker *m) {
+  unsigned locked = 0;
   for (uint32_t k = 0; k < 2 * AXES; k++)
-    if (m->locked >> k & 1) held |= 1u << target_of(m, k >= AXES, k % AXES);
-  return held;
+    if (m->locked >> k & 1) locked |= 1u << target_of(m, k >= AXES, k % AXES);
+  return locked;
 }
 
 /* ---- Making ---- */
@@ -235,20 +236,20 @@ static void make_drive(joint_maker *m, const drive_entry *from, const sbf_joint 
   *drive = from->drive;
   drive->target = target_of(m, from->angular, from->axis);
   if (!from->acceleration) return;
-  float mass = (float)sbfi_physics_effective_mass(m->c->asset, joint, held_targets(m), drive->target);
+  float mass = (float)sbfi_physics_effective_mass(m->c->asset, joint, locked_targets(m), drive->target);
   drive->stiffness *= mass;
   drive->damping *= mass;
   m->c->physics->losses[SBFI_LOSS_ACCELERATION]++;
 }
 
 static sbf_joint_kind find_kind(joint_maker *m) {
-  unsigned held = held_targets(m);
-  if (!held && !m->made_drive_count && m->made_limit_count == 1 &&
+  unsigned locked = locked_targets(m);
+  if (!locked && !m->made_drive_count && m->made_limit_count == 1 &&
       m->made_limits[0].target == SBF_JOINT_AXIS_DISTANCE)
     return SBF_JOINT_KIND_DISTANCE;
   for (int kind = 0; kind < SBF_JOINT_KIND_COUNT; kind++) {
     bool other = kind == SBF_JOINT_KIND_DISTANCE || kind == SBF_JOINT_KIND_PULLEY;
-    if (!other && sbfi_joint_is_locked((sbf_joint_kind)kind) == held) return (sbf_joint_kind)kind;
+    if (!other && sbfi_joint_is_locked((sbf_joint_kind)kind) == locked) return (sbf_joint_kind)kind;
   }
   return SBF_JOINT_KIND_SIX_DOF;
 }
@@ -257,7 +258,7 @@ static sbf_joint_kind find_kind(joint_maker *m) {
 static void hold_by_limits(joint_maker *m) {
   const limit_entry hard = {0};
   for (uint32_t k = 0; k < 2 * AXES; k++)
-    if (held_targets(m) >> k & 1) add_limit(m, (sbf_joint_axis)k, &hard, 0, 0);
+    if (locked_targets(m) >> k & 1) add_limit(m, (sbf_joint_axis)k, &hard, 0, 0);
 }
 
 static void count_angles(joint_maker *m) {
@@ -286,23 +287,24 @@ static sbf_frame frame_of(const joint_maker *m, uint32_t node, int32_t body) {
 
 /* The body that a node belongs to: of the motion at or above it, or of a static collider there. */
 static int32_t body_of(const sbfi_physics *p, uint32_t node) {
-  int32_t up = p->nodes[node].mover;
+  int32_t up = p->nodes[node].moving_node;
   if (up != SBF_NONE) return p->nodes[up].body;
   for (up = (int32_t)node; up != SBF_NONE && p->nodes[up].body == SBF_NONE;) up = p->nodes[up].parent;
   return up == SBF_NONE ? SBF_NONE : p->nodes[up].body;
 }
 
-/* Whether the coordinates that are held, limited or driven only change their signs where the two sides are
+/* Whether the coordinates that are locked, limited or driven only change their signs where the two sides are
  * exchanged: of positions without rotation, and of rotations about a common origin without single swings. */
 static bool may_exchange(const joint_maker *m) {
-  unsigned held = held_targets(m), lengths = held & 7, angles = held >> AXES;
-  bool swings = (angles & 6) == 2 || (angles & 6) == 4; /* one is held */
+  unsigned locked = locked_targets(m), lengths = locked & 7, angles = locked >> AXES;
+  bool swings = (angles & 6) == 2 || (angles & 6) == 4; /* one is locked */
   for (uint32_t i = 0; i < m->limit_count; i++) {
     const limit_entry *limit = &m->limits[i];
     bool single = limit->angular && count_axes(limit->axes) == 1 && !holds(limit);
     swings |= single && lowest_axis(limit->axes) != m->first;
   }
-  for (uint32_t i = 0; i < m->drive_count; i++) swings |= m->drives[i].angular && m->drives[i].axis != m->first;
+  for (uint32_t i = 0; i < m->drive_count; i++)
+    swings |= m->drives[i].angular && m->drives[i].axis != m->first;
   return angles == 7 || (lengths == 7 && !swings);
 }
 
@@ -400,11 +402,11 @@ static bool make_joint(joint_maker *m, uint32_t node, sbf_joint *joint, bool *ma
       !sbfi_physics_flag(p, json, "enableCollision", &joint->collide))
     return false;
   if (other == SBF_NONE || description == SBF_NONE)
-    return sbfi_physics_fault(p, "the joint of node %u ('%s') must name a connected node and a joint", node,
-        m->name);
+    return sbfi_physics_fault(
+        p, "the joint of node %u ('%s') must name a connected node and a joint", node, m->name);
   if (!read_description(m, sbfi_json_at(p->joints, (uint32_t)description))) return false;
   int32_t a = body_of(p, node), b = body_of(p, (uint32_t)other);
-  if (p->nodes[node].mover == SBF_NONE && p->nodes[other].mover == SBF_NONE) {
+  if (p->nodes[node].moving_node == SBF_NONE && p->nodes[other].moving_node == SBF_NONE) {
     p->losses[SBFI_LOSS_STATIC_JOINT]++;
     return true;
   }

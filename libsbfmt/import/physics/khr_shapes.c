@@ -1,7 +1,7 @@
 /* Shapes of KHR_implicit_shapes as points and volume integrals.
  *
- * Round shapes turn a profile about +Y: r^2 is a polynomial of degree 2 on each of its pieces, so that Gauss's
- * rule with three points integrates r^4, r^2 y and r^2 y^2 exactly. */
+ * Round shapes turn a profile about +Y: r^2 is a polynomial of degree 2 on each of its pieces, so that
+ * Gauss's rule with three points integrates r^4, r^2 y and r^2 y^2 exactly. */
 #include <math.h>
 #include <string.h>
 
@@ -22,8 +22,8 @@ typedef struct profile {
   int count;
 } profile;
 
-static bool add_point(const sbfi_physics *p, sbfi_physics_shape *shape, const sbfi_matrix *to_asset,
-    double x, double y, double z) {
+static bool add_point(const sbfi_physics *p, sbfi_physics_shape *shape, const sbfi_matrix *to_asset, double x,
+    double y, double z) {
   sbf_vec3 point = sbfi_transform_point(to_asset, (sbf_vec3){(float)x, (float)y, (float)z});
   if (sbfi_array_append(&shape->points, &point, 1)) return true;
   sbfi_diagnose(p->file.error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading the collision shapes");
@@ -35,8 +35,8 @@ static double radius_at(const piece *s, double y) {
   return square > 0 ? sqrt(square) : 0;
 }
 
-static bool add_ring(const sbfi_physics *p, sbfi_physics_shape *shape, const sbfi_matrix *to_asset,
-    double y, double radius) {
+static bool add_ring(
+    const sbfi_physics *p, sbfi_physics_shape *shape, const sbfi_matrix *to_asset, double y, double radius) {
   for (int i = 0; i < (radius > 0 ? SEGMENTS : 1); i++) {
     double angle = 2 * PI * i / SEGMENTS;
     if (!add_point(p, shape, to_asset, radius * cos(angle), y, radius * sin(angle))) return false;
@@ -59,8 +59,8 @@ static void integrate(const piece *s, sbfi_moments *to) {
   }
 }
 
-static bool add_profile(const sbfi_physics *p, const profile *from, const sbfi_matrix *to_asset,
-    sbfi_physics_shape *shape) {
+static bool add_profile(
+    const sbfi_physics *p, const profile *from, const sbfi_matrix *to_asset, sbfi_physics_shape *shape) {
   sbfi_moments local = {0};
   for (int i = 0; i < from->count; i++) {
     const piece *s = &from->pieces[i];
@@ -175,9 +175,8 @@ bool sbfi_physics_add_implicit(
     return add_profile(p, &made, to_asset, shape);
   case 3:
     if (!read_ends(p, values, kinds[kind], &height, radii)) return false;
-    made = (profile){{cone_piece(-0.5 * (double)height, (double)radii[0], 0.5 * (double)height,
-                         (double)radii[1])},
-        1};
+    made = (profile){
+        {cone_piece(-0.5 * (double)height, (double)radii[0], 0.5 * (double)height, (double)radii[1])}, 1};
     return add_profile(p, &made, to_asset, shape);
   default:
     return add_plane(p, values, to_asset, shape);

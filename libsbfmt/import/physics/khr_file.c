@@ -125,8 +125,7 @@ static bool match_scene(sbfi_physics *p, const sbfi_scene *scene) {
   if (!scene->node_count) return true;
   if (!list_children(&t, scene)) return no_memory(p);
   sbfi_json_u32(sbfi_json_get(p->file.root, "scene"), &number);
-  const sbfi_json *tops =
-      sbfi_json_get(sbfi_json_at(sbfi_json_get(p->file.root, "scenes"), number), "nodes");
+  const sbfi_json *tops = sbfi_json_get(sbfi_json_at(sbfi_json_get(p->file.root, "scenes"), number), "nodes");
   match_children(&t, tops, tops && tops->count == 1 ? 0 : t.first[0]);
   for (uint32_t i = 0; i < t.count; i++) {
     const sbfi_physics_node *node = &p->nodes[t.queue[i]];
@@ -137,11 +136,11 @@ static bool match_scene(sbfi_physics *p, const sbfi_scene *scene) {
 
 /* ---- Roles of nodes ---- */
 
-static void find_movers(sbfi_physics *p) {
+static void find_moving_nodes(sbfi_physics *p) {
   for (uint32_t i = 0; i < p->node_count; i++) {
     int32_t up = (int32_t)i;
     while (up != SBF_NONE && !sbfi_json_get(p->nodes[up].physics, "motion")) up = p->nodes[up].parent;
-    p->nodes[i].mover = up;
+    p->nodes[i].moving_node = up;
     p->nodes[i].body = SBF_NONE;
   }
 }
@@ -173,8 +172,8 @@ static void unmark_frame(const sbfi_physics *p, sbfi_scene_node *nodes, uint32_t
     nodes[p->nodes[node].scene_node].is_bone = false;
 }
 
-/* Bones of a simulated file are the nodes with a motion and, outside them or if there are clips, the joints of skins: below a
- * motion nothing else moves them. Bones that the importer guesses are none. */
+/* Bones of a simulated file are the nodes with a motion and, outside them or if there are clips, the joints
+ * of skins: below a motion nothing else moves them. Bones that the importer guesses are none. */
 static void mark_bones(sbfi_physics *p, sbfi_scene *scene) {
   sbfi_scene_node *nodes = (sbfi_scene_node *)(uintptr_t)scene->nodes; /* the scene is still being made */
   const sbfi_json *skins = list_of(p->file.root, "skins");
@@ -185,7 +184,7 @@ static void mark_bones(sbfi_physics *p, sbfi_scene *scene) {
       uint32_t joint;
       bool is_node = sbfi_json_u32(sbfi_json_at(joints, k), &joint) && joint < p->node_count;
       if (!is_node || p->nodes[joint].scene_node == SBF_NONE) continue;
-      if (p->nodes[joint].mover == SBF_NONE || scene->clip_count)
+      if (p->nodes[joint].moving_node == SBF_NONE || scene->clip_count)
         nodes[p->nodes[joint].scene_node].is_bone = true;
     }
   }
@@ -196,7 +195,7 @@ static void mark_bones(sbfi_physics *p, sbfi_scene *scene) {
     unmark_frame(p, nodes, (uint32_t)other);
   }
   for (uint32_t i = 0; i < p->node_count; i++)
-    if (p->nodes[i].mover == (int32_t)i && p->nodes[i].scene_node != SBF_NONE)
+    if (p->nodes[i].moving_node == (int32_t)i && p->nodes[i].scene_node != SBF_NONE)
       nodes[p->nodes[i].scene_node].is_bone = true;
 }
 
@@ -223,7 +222,7 @@ static bool read(sbfi_physics *p, sbfi_scene *scene, const sbf_allocator *alloca
     p->nodes[i].physics = extension_of(p->nodes[i].json, RIGID_BODIES);
   }
   if (!find_parents(p) || !match_scene(p, scene)) return false;
-  find_movers(p);
+  find_moving_nodes(p);
   find_simulated(p, scene);
   mark_bones(p, scene);
   return true;
@@ -285,7 +284,8 @@ bool sbfi_physics_local(const sbfi_physics *p, uint32_t node, sbfi_matrix *local
   const sbfi_json *json = p->nodes[node].json;
   float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, t[3] = {0}, r[4] = {0, 0, 0, 1},
         s[3] = {1, 1, 1};
-  if (!sbfi_physics_numbers(p, json, "matrix", 16, m) || !sbfi_physics_numbers(p, json, "translation", 3, t) ||
+  if (!sbfi_physics_numbers(p, json, "matrix", 16, m) ||
+      !sbfi_physics_numbers(p, json, "translation", 3, t) ||
       !sbfi_physics_numbers(p, json, "rotation", 4, r) || !sbfi_physics_numbers(p, json, "scale", 3, s))
     return false;
   if (sbfi_json_get(json, "matrix")) {
