@@ -166,6 +166,17 @@ static void write_vec3(sbfi_text *text, const char *name, const float v[3]) {
   sbfi_glb_write_numbers(text, v, 3);
 }
 
+/* Velocities are in the node's space. */
+static void write_velocity(
+    const sbfi_glb *g, uint32_t i, const char *name, sbf_vec3 velocity, sbfi_text *text) {
+  const sbf_quat rotation = g->rigid->bodies[i].transform.rotation;
+  const sbfi_glb_transform space = {{0, 0, 0}, rotation};
+  float local[3], unused[4];
+  if (velocity.x == 0 && velocity.y == 0 && velocity.z == 0) return;
+  sbfi_glb_compute_local((sbfi_glb_transform){velocity, rotation}, &space, local, unused);
+  write_vec3(text, name, local);
+}
+
 static void write_motion(const sbfi_glb *g, uint32_t i, sbfi_text *text) {
   const sbf_rigid_body *body = &g->e->asset->rigid_bodies.at[i];
   sbf_rigid_measures is;
@@ -186,6 +197,8 @@ static void write_motion(const sbfi_glb *g, uint32_t i, sbfi_text *text) {
     sbfi_text_string(text, ",\"inertiaOrientation\":");
     sbfi_glb_write_numbers(text, rotation, 4);
   }
+  write_velocity(g, i, "linearVelocity", body->velocity, text);
+  write_velocity(g, i, "angularVelocity", body->angular_velocity, text);
   if (body->gravity_scale != 1) {
     sbfi_text_string(text, ",\"gravityFactor\":");
     sbfi_text_f32(text, body->gravity_scale);

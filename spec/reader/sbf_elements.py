@@ -141,6 +141,8 @@ rigid_body
   mask: uint default=4294967295
   hull: optional(polygon_mesh) as=<polygon_mesh> fixed=target=collision_detection
   hull_derived: ref(derivations)
+  velocity: vec3
+  angular_velocity: vec3
 joint
   id: id required
   name: string

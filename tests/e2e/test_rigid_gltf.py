@@ -68,6 +68,30 @@ class ClosedForms(RigidTest):
             time, (_, height, _), _ = moves[f"body {factor}"][-1]
             self.assertAlmostEqual(height, 100 - 0.5 * GRAVITY * factor * time**2, delta=2e-3)
 
+    def test_initial_velocities(self):
+        scene, half = Scene(), math.sqrt(0.5)
+        # Turned by 90 degrees about Y: +X of the node is -Z of the asset.
+        scene.body("thrown", mass=1, rotation=(0, half, 0, half), linearVelocity=[3, 4, 0])
+        scene.body("turning", at=(9, 50, 0), mass=1, gravityFactor=0, angularVelocity=[0, 0, 1.5],
+                   collider=scene.shape("sphere", radius=0.5))
+        bundle, _ = self.convert(scene)
+        moves = self.motion(bundle, 1)
+        for time, at, _ in moves["thrown"]:
+            for value, wanted in zip(at, (0, 50 + 4 * time - 0.5 * GRAVITY * time**2, -3 * time)):
+                self.assertAlmostEqual(value, wanted, delta=2e-3)
+        for time, _, turn in moves["turning"]:
+            self.assertAlmostEqual(2 * math.atan2(turn[2], turn[3]), 1.5 * time, delta=2e-3)
+        self.assert_velocities_go_round(bundle)
+
+    def assert_velocities_go_round(self, bundle):
+        self.good("export", bundle, "-o", self.path("again.glb"))
+        self.good("convert", self.path("again.glb"), "-o", self.path("again.sbf"))
+        before, after = self.parts(bundle)[0], self.parts(self.path("again.sbf"))[0]
+        for name, body in before.items():
+            for key in ("velocity", "angular_velocity"):
+                for x, y in zip(numbers(body.get(key, "0 0 0")), numbers(after[name].get(key, "0 0 0"))):
+                    self.assertAlmostEqual(x, y, delta=1e-5)
+
     def test_a_hinge_swings_with_the_period_of_a_pendulum(self):
         scene, angle, length = Scene(), 0.4, 1.0
         turn = [0, 0, math.sin(angle / 2), math.cos(angle / 2)]
@@ -249,7 +273,7 @@ class Surroundings(RigidTest):
         scene.joint(tube, None, [{"linearAxes": [0, 1], "max": 1}, {"angularAxes": [0, 1, 2], "max": 0.3}], other_at=(12, 50, 0))
         scene.joint(scene.node("a"), None, [LINEAR])
         _, said = self.convert(scene)
-        for what in ("planes", "static colliders", "triggers", "initial velocities", "infinite masses", "neither mass nor shape",
+        for what in ("planes", "static colliders", "triggers", "velocities of kinematic bodies", "infinite masses", "neither mass nor shape",
                      "distance from a line", "rotation about all axes", "static nodes"):
             self.assertRegex(said, f"1 of KHR_physics_rigid_bodies: [^:]*{what}")
 

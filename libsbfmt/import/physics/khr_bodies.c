@@ -146,6 +146,14 @@ static void make_infinite(sbfi_physics *p, sbf_rigid_body *body) {
   p->losses[SBFI_LOSS_INFINITE_INERTIA] += any;
 }
 
+/* A vector of node space, without the node's scale. */
+static sbf_vec3 rotated(const sbfi_matrix *world, const float vector[3]) {
+  const sbfi_trs trs = sbfi_trs_decompose(world);
+  double v[3] = {(double)vector[0], (double)vector[1], (double)vector[2]};
+  sbfi_quatd_rotate(trs.rotation, v, v);
+  return (sbf_vec3){(float)v[0], (float)v[1], (float)v[2]};
+}
+
 static bool has_velocity(const float v[3]) {
   return v[0] != 0 || v[1] != 0 || v[2] != 0;
 }
@@ -168,7 +176,9 @@ static bool read_motion(
       !sbfi_physics_number(p, motion, "gravityFactor", 1, &body->gravity_scale))
     return false;
   body->motion = kinematic ? SBF_BODY_MOTION_KINEMATIC : SBF_BODY_MOTION_DYNAMIC;
-  p->losses[SBFI_LOSS_VELOCITY] += has_velocity(linear) || has_velocity(angular);
+  p->losses[SBFI_LOSS_VELOCITY] += kinematic && (has_velocity(linear) || has_velocity(angular));
+  if (!kinematic) body->velocity = rotated(&world, linear);
+  if (!kinematic) body->angular_velocity = rotated(&world, angular);
   bool solid = moments->volume > 0, stated_inertia = sbfi_json_get(motion, "inertiaDiagonal") != NULL;
   if (body->mass == 0) p->losses[SBFI_LOSS_INFINITE_MASS]++, body->mass = INFINITE_MASS;
   if (body->mass < 0 && solid) body->mass = (float)(DENSITY * moments->volume);

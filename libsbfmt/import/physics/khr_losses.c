@@ -6,7 +6,7 @@ static const char *const texts[SBFI_LOSS_COUNT] = {
     [SBFI_LOSS_CONCAVE] = "concave collision meshes: their convex hulls",
     [SBFI_LOSS_PLANE] = "planes and flat meshes: slabs below them, 200 m wide for infinite planes",
     [SBFI_LOSS_STATIC] =
-        "static colliders: kinematic bodies, which do not collide with bodies of the same file",
+        "static colliders: kinematic bodies, which others meet in a world with body contacts",
     [SBFI_LOSS_GEOMETRY] = "collision shapes that are flat or cannot be read: left out",
     [SBFI_LOSS_SHAPE_TYPE] = "collision shapes of unknown types: left out",
     [SBFI_LOSS_TRIGGER] = "triggers: left out",
@@ -15,7 +15,7 @@ static const char *const texts[SBFI_LOSS_COUNT] = {
     [SBFI_LOSS_MATERIALS] =
         "colliders with another material or filter than the first of their body: the first's",
     [SBFI_LOSS_SYSTEMS] = "collision filters beyond 31 sets of systems: the last set's",
-    [SBFI_LOSS_VELOCITY] = "initial velocities: left out",
+    [SBFI_LOSS_VELOCITY] = "velocities of kinematic bodies: left out",
     [SBFI_LOSS_NO_MASS] = "bodies with neither mass nor shape: 1 kg",
     [SBFI_LOSS_INFINITE_MASS] = "infinite masses: 1,000,000 kg",
     [SBFI_LOSS_INFINITE_INERTIA] = "infinite moments of inertia: 1,000 times the largest",
