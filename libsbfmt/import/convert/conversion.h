@@ -39,6 +39,10 @@ typedef struct sbfi_conversion {
 sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
     const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error);
 
+/* Converts a scene with its own rig and, if its file has some, its own rigid bodies (import/physics). */
+sbf_status sbfi_convert_own_scene(
+    sbfi_scene *scene, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error);
+
 /* Every pass returns SBF_OK, or a status with c->error filled. */
 sbf_status sbfi_convert_skeleton(sbfi_conversion *c);
 sbf_status sbfi_match_sections(sbfi_conversion *c);

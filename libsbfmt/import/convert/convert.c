@@ -229,6 +229,18 @@ sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
   return convert_readings(&(readings){.scene = scene, .rig = rig}, options, asset, error);
 }
 
+sbf_status sbfi_convert_own_scene(
+    sbfi_scene *scene, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbfi_physics *physics;
+  sbf_status status = sbfi_physics_read(&physics, scene, options->allocator, error);
+  if (status != SBF_OK) return status;
+  bool has_rig = sbfi_scene_bone_count(scene) || (physics && physics->is_simulated);
+  const readings from = {.scene = scene, .rig = has_rig ? scene : NULL, .physics = physics};
+  status = convert_readings(&from, options, asset, error);
+  sbfi_physics_free(physics);
+  return status;
+}
+
 /* Converts a file without a scene: tetrahedra or the 2012 dialect. */
 static sbf_status convert_other_file(const char *input, bool is_paper, const sbf_convert_options *options,
     sbf_asset **asset, sbf_diagnostic *error) {
@@ -292,23 +304,18 @@ sbf_status sbf_convert(
     return convert_other_file(input, is_paper, options, asset, error);
   sbfi_scene_options reading = {.allocator = options->allocator, .helper_path = options->import_helper};
   sbfi_scene scene, rig_scene;
-  sbfi_physics *physics = NULL;
   sbf_status status = read_scene(&scene, input, &reading, error);
   if (status != SBF_OK) return status;
-  if (!options->rig) status = sbfi_physics_read(&physics, &scene, options->allocator, error);
-  if (status != SBF_OK) return sbfi_scene_fail(&scene, error, status);
-  const sbfi_scene *rig = sbfi_scene_bone_count(&scene) ? &scene : NULL;
   if (options->rig) {
     status = read_scene(&rig_scene, options->rig, &reading, error);
     if (status == SBF_OK && sbfi_scene_bone_count(&rig_scene) == 0)
       status = sbfi_diagnose(error, SBF_CODE_IMPORT_NO_BONES,
           "the rig file %s has no skeleton: use a file with bones", options->rig);
-    rig = &rig_scene;
+    if (status == SBF_OK) status = sbfi_convert_scenes(&scene, &rig_scene, options, asset, error);
+  } else {
+    status = sbfi_convert_own_scene(&scene, options, asset, error);
+    if (status != SBF_OK && !error->file[0]) sbfi_copy_text(error->file, sizeof error->file, scene.file);
   }
-  if (physics && physics->is_simulated) rig = &scene;
-  const readings from = {.scene = &scene, .rig = rig, .physics = physics};
-  if (status == SBF_OK) status = convert_readings(&from, options, asset, error);
-  sbfi_physics_free(physics);
   if (options->rig) sbfi_scene_free(&rig_scene);
   sbfi_scene_free(&scene);
   return status;
