@@ -245,6 +245,7 @@ static const sbf_code_info table[] = {
   {"GLTF_NO_SOFT_BODY", SBF_CODE_GLTF_NO_SOFT_BODY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The glTF file lacks the extension SBF_soft_body: make a bundle of it with `sbfmt convert`."},
   {"GLTF_EXTENSION", SBF_CODE_GLTF_EXTENSION, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The content of the extension SBF_soft_body is inconsistent: pack the character again."},
   {"GLTF_CHANGED", SBF_CODE_GLTF_CHANGED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Another program changed the meshes or clips that SBF_soft_body refers to: use the file as it was before."},
+  {"GLTF_RENUMBERED", SBF_CODE_GLTF_RENUMBERED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Another program renumbered the meshes, clips or images of the glTF file: write the file again by `sbfmt validate --fix`."},
   {"IMPORT_SYNTAX", SBF_CODE_IMPORT_SYNTAX, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A line of a text file is malformed: correct it or export it again."},
   {"IMPORT_INDEX", SBF_CODE_IMPORT_INDEX, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A polygon refers to a vertex, normal or texture coordinate that the file does not have: export it again."},
   {"IMPORT_NOT_FINITE", SBF_CODE_IMPORT_NOT_FINITE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A number of the imported file is infinite or not a number: export it again."},

@@ -256,6 +256,7 @@ typedef enum sbf_code {
   SBF_CODE_GLTF_NO_SOFT_BODY = 822, /* The glTF file lacks the extension SBF_soft_body: make a bundle of it with `sbfmt convert`. */
   SBF_CODE_GLTF_EXTENSION = 823, /* The content of the extension SBF_soft_body is inconsistent: pack the character again. */
   SBF_CODE_GLTF_CHANGED = 824, /* Another program changed the meshes or clips that SBF_soft_body refers to: use the file as it was before. */
+  SBF_CODE_GLTF_RENUMBERED = 825, /* Another program renumbered the meshes, clips or images of the glTF file: write the file again by `sbfmt validate --fix`. */
   SBF_CODE_IMPORT_SYNTAX = 901, /* A line of a text file is malformed: correct it or export it again. */
   SBF_CODE_IMPORT_INDEX = 902, /* A polygon refers to a vertex, normal or texture coordinate that the file does not have: export it again. */
   SBF_CODE_IMPORT_NOT_FINITE = 903, /* A number of the imported file is infinite or not a number: export it again. */
