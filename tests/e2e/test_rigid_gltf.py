@@ -277,6 +277,14 @@ class Surroundings(RigidTest):
                      "distance from a line", "rotation about all axes", "static nodes"):
             self.assertRegex(said, f"1 of KHR_physics_rigid_bodies: [^:]*{what}")
 
+    def test_with_another_rig_they_are_left_out(self):
+        scene = Scene()
+        scene.body("box", at=(0, 0.2, 0), mass=1)
+        write_bytes(self.path("box.glb"), scene.bytes())
+        rig = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
+        said = call("convert", self.path("box.glb"), "--rig", rig, "-o", self.path("box.sbf"), "--no-build").err
+        self.assertIn("rigid bodies and joints are left out", said)
+
     def test_a_text_file_with_its_buffer_beside(self):
         scene = Scene()
         scene.body("box", collider={"geometry": {"node": 0, "convexHull": True}})

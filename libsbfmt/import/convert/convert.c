@@ -311,6 +311,10 @@ sbf_status sbf_convert(
     if (status == SBF_OK && sbfi_scene_bone_count(&rig_scene) == 0)
       status = sbfi_diagnose(error, SBF_CODE_IMPORT_NO_BONES,
           "the rig file %s has no skeleton: use a file with bones", options->rig);
+    if (status == SBF_OK && sbfi_physics_is_named(&scene, options->allocator))
+      sbfi_scene_warn(&scene, SBF_CODE_IMPORT_IGNORED, 0,
+          "the file's rigid bodies and joints are left out, because the rig is another file: leave out --rig "
+          "to keep them");
     if (status == SBF_OK) status = sbfi_convert_scenes(&scene, &rig_scene, options, asset, error);
   } else {
     status = sbfi_convert_own_scene(&scene, options, asset, error);

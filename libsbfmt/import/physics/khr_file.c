@@ -234,12 +234,24 @@ static bool is_used(const sbfi_physics *p) {
   return false;
 }
 
+static bool is_gltf(const sbfi_scene *scene) {
+  return strcmp(scene->format, "glb") == 0 || strcmp(scene->format, "gltf") == 0;
+}
+
+bool sbfi_physics_is_named(const sbfi_scene *scene, const sbf_allocator *allocator) {
+  sbfi_file_content content;
+  if (!is_gltf(scene) || sbfi_file_read(scene->path, (uint64_t)4 << 30, allocator, &content, NULL) != SBF_OK)
+    return false;
+  bool named = contains(&content, RIGID_BODIES);
+  sbfi_file_content_free(&content);
+  return named;
+}
+
 sbf_status sbfi_physics_read(
     sbfi_physics **physics, sbfi_scene *scene, const sbf_allocator *allocator, sbf_diagnostic *error) {
-  const bool is_gltf = strcmp(scene->format, "glb") == 0 || strcmp(scene->format, "gltf") == 0;
   sbfi_file_content content;
   *physics = NULL;
-  if (!is_gltf) return SBF_OK;
+  if (!is_gltf(scene)) return SBF_OK;
   sbf_status status = sbfi_file_read(scene->path, (uint64_t)4 << 30, allocator, &content, error);
   if (status != SBF_OK) return status;
   if (!contains(&content, RIGID_BODIES)) {

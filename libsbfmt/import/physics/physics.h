@@ -66,6 +66,8 @@ typedef struct sbfi_physics sbfi_physics;
 sbf_status sbfi_physics_read(
     sbfi_physics **physics, sbfi_scene *scene, const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_physics_free(sbfi_physics *physics);
+/* Whether the scene's file names the extension. */
+bool sbfi_physics_is_named(const sbfi_scene *scene, const sbf_allocator *allocator);
 
 /* A pass of the conversion, after meshes: makes rigid bodies and joints, and reports what was lost. */
 sbf_status sbfi_physics_convert(sbfi_conversion *c);
