@@ -4,13 +4,17 @@
 #include "export/glb_rigid.h"
 #include "sbfmt/mechanics.h"
 
-static const char RIGID_BODIES[] = "KHR_physics_rigid_bodies";
+static const char RIGID_BODIES[] = "KHR_physics_rigid_bodies", SHAPES[] = "KHR_implicit_shapes";
 
 bool sbfi_glb_has_rigid(const sbfi_glb *g) {
   return g->e->asset->rigid_bodies.count > 0 && !g->e->motion;
 }
 
 /* ---- Materials and filters ---- */
+
+static bool has_hull(const sbf_rigid_body *body) {
+  return body->hull && body->hull->polygon_sizes.count > 0;
+}
 
 static bool equals_material(const sbf_rigid_body *a, const sbf_rigid_body *b) {
   return a->friction == b->friction && a->restitution == b->restitution;
@@ -60,7 +64,7 @@ static void choose_shared(sbfi_glb *g, uint32_t i, uint32_t used_layers) {
   sbfi_glb_rigid *r = g->rigid;
   sbfi_glb_rigid_body *to = &r->bodies[i];
   to->material = to->filter = SBF_NONE;
-  if (to->hull_node == UINT32_MAX) return;
+  if (!has_hull(body)) return;
   bool filtered = body->layer != 1 || (used_layers & ~body->mask) != 0;
   for (uint32_t k = 0; k < i; k++) {
     if (r->bodies[k].material >= 0 && equals_material(body, &all[k])) to->material = r->bodies[k].material;
@@ -79,8 +83,11 @@ static void choose_shared(sbfi_glb *g, uint32_t i, uint32_t used_layers) {
 
 /* ---- Plan ---- */
 
-static bool has_hull(const sbf_rigid_body *body) {
-  return body->hull && body->hull->polygon_sizes.count > 0;
+static void write_box_shape(sbfi_glb_rigid *r, const sbfi_glb_box *box) {
+  if (r->shape_count++) sbfi_text_char(&r->shapes, ',');
+  sbfi_text_string(&r->shapes, "{\"type\":\"box\",\"box\":{\"size\":");
+  sbfi_glb_write_numbers(&r->shapes, box->size, 3);
+  sbfi_text_string(&r->shapes, "}}");
 }
 
 static void plan_body(sbfi_glb *g, uint32_t i, const bool *bone_used, uint32_t *node) {
@@ -91,6 +98,11 @@ static void plan_body(sbfi_glb *g, uint32_t i, const bool *bone_used, uint32_t *
   to->node = to->own_node ? (*node)++ : (uint32_t)body->bone;
   to->transform = to->own_node ? (sbfi_glb_transform){body->center, {0, 0, 0, 1}}
                                : sbfi_glb_rest(g->e->asset, (uint32_t)body->bone);
+  to->shape = SBF_NONE;
+  if (!has_hull(body) || !sbfi_glb_find_box(body->hull, &to->box)) return;
+  to->shape = (int32_t)g->rigid->shape_count;
+  write_box_shape(g->rigid, &to->box);
+  if (to->is_static) to->transform = to->box.transform;
 }
 
 void sbfi_glb_plan_rigid(sbfi_glb *g, uint32_t first_node) {
@@ -102,6 +114,7 @@ void sbfi_glb_plan_rigid(sbfi_glb *g, uint32_t first_node) {
   sbfi_text_init(&r->materials, &g->e->allocator);
   sbfi_text_init(&r->filters, &g->e->allocator);
   sbfi_text_init(&r->joints, &g->e->allocator);
+  sbfi_text_init(&r->shapes, &g->e->allocator);
   r->bodies = sbfi_glb_allocate(g, asset->rigid_bodies.count, sizeof *r->bodies);
   r->joint_nodes = sbfi_glb_allocate(g, (size_t)asset->joints.count + 1, sizeof *r->joint_nodes);
   bool *bone_used = sbfi_glb_allocate(g, (size_t)asset->bones.count + 1, sizeof *bone_used);
@@ -113,7 +126,8 @@ void sbfi_glb_plan_rigid(sbfi_glb *g, uint32_t first_node) {
     layers |= body->layer;
   }
   for (uint32_t i = 0; i < asset->rigid_bodies.count; i++) {
-    r->bodies[i].hull_node = has_hull(&asset->rigid_bodies.at[i]) ? node++ : UINT32_MAX;
+    bool is_own = r->bodies[i].is_static && r->bodies[i].shape != SBF_NONE;
+    r->bodies[i].hull_node = has_hull(&asset->rigid_bodies.at[i]) && !is_own ? node++ : UINT32_MAX;
     choose_shared(g, i, layers);
   }
   for (uint32_t i = 0; i < asset->joints.count; i++) {
@@ -129,6 +143,7 @@ void sbfi_glb_free_rigid(sbfi_glb *g) {
   sbfi_text_free(&g->rigid->materials);
   sbfi_text_free(&g->rigid->filters);
   sbfi_text_free(&g->rigid->joints);
+  sbfi_text_free(&g->rigid->shapes);
 }
 
 /* ---- Parts of nodes ---- */
@@ -149,15 +164,22 @@ static void add_frames(const sbfi_glb *g, int32_t body, sbfi_text *text, bool *f
   }
 }
 
+/* Whether a node below the body's has its collider. */
+static bool has_box_node(const sbfi_glb_rigid_body *body) {
+  return body->shape != SBF_NONE && body->hull_node != UINT32_MAX;
+}
+
 void sbfi_glb_add_rigid_children(sbfi_glb *g, int32_t bone, sbfi_text *text, bool *first) {
   if (!g->rigid) return;
   for (uint32_t i = 0; i < g->e->asset->rigid_bodies.count; i++) {
     const sbfi_glb_rigid_body *body = &g->rigid->bodies[i];
     if (g->e->asset->rigid_bodies.at[i].bone != bone) continue;
-    if (body->own_node)
+    if (body->own_node) {
       add_child(text, body->node, first);
-    else
+    } else {
+      if (has_box_node(body)) add_child(text, body->hull_node, first);
       add_frames(g, (int32_t)i, text, first, add_child);
+    }
   }
 }
 
@@ -206,17 +228,25 @@ static void write_motion(const sbfi_glb *g, uint32_t i, sbfi_text *text) {
   sbfi_text_char(text, '}');
 }
 
+static void write_collider(const sbfi_glb_rigid_body *body, sbfi_text *text) {
+  if (body->shape != SBF_NONE)
+    sbfi_export_print(text, "\"collider\":{\"geometry\":{\"shape\":%d}", (int)body->shape);
+  else
+    sbfi_export_print(text, "\"collider\":{\"geometry\":{\"node\":%u,\"convexHull\":true}", body->hull_node);
+  sbfi_export_print(text, ",\"physicsMaterial\":%d", (int)body->material);
+  if (body->filter >= 0) sbfi_export_print(text, ",\"collisionFilter\":%d", (int)body->filter);
+  sbfi_text_char(text, '}');
+}
+
 static void write_extension(const sbfi_glb *g, uint32_t i, sbfi_text *text) {
   const sbfi_glb_rigid_body *body = &g->rigid->bodies[i];
-  if (body->is_static && body->hull_node == UINT32_MAX) return;
+  bool has_collider = has_hull(&g->e->asset->rigid_bodies.at[i]) && !has_box_node(body);
+  if (body->is_static && !has_collider) return;
   sbfi_export_print(text, ",\"extensions\":{\"%s\":{", RIGID_BODIES);
   if (!body->is_static) write_motion(g, i, text);
-  if (body->hull_node != UINT32_MAX) {
-    sbfi_export_print(text, "%s\"collider\":{\"geometry\":{\"node\":%u,\"convexHull\":true}",
-        body->is_static ? "" : ",", body->hull_node);
-    sbfi_export_print(text, ",\"physicsMaterial\":%d", (int)body->material);
-    if (body->filter >= 0) sbfi_export_print(text, ",\"collisionFilter\":%d", (int)body->filter);
-    sbfi_text_char(text, '}');
+  if (has_collider) {
+    if (!body->is_static) sbfi_text_char(text, ',');
+    write_collider(body, text);
   }
   sbfi_text_string(text, "}}");
 }
@@ -246,6 +276,7 @@ static void write_own_node(sbfi_glb *g, uint32_t i) {
   sbfi_text_string(text, "{\"name\":");
   sbfi_glb_write_string(text, *body->name ? body->name : body->id);
   write_local(text, is->transform, body->bone >= 0 ? &parent : NULL);
+  if (has_box_node(is)) add_child(text, is->hull_node, &first);
   add_frames(g, (int32_t)i, text, &first, add_child);
   if (!first) sbfi_text_char(text, ']');
   write_extension(g, i, text);
@@ -281,7 +312,21 @@ static uint32_t write_hull_mesh(sbfi_glb *g, uint32_t i) {
   return number;
 }
 
+static void write_box_node(sbfi_glb *g, uint32_t i) {
+  const sbfi_glb_rigid_body *body = &g->rigid->bodies[i];
+  sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_NODES, NULL);
+  sbfi_text_string(text, "{\"name\":\"box\"");
+  write_local(text, body->box.transform, &body->transform);
+  sbfi_export_print(text, ",\"extensions\":{\"%s\":{", RIGID_BODIES);
+  write_collider(body, text);
+  sbfi_text_string(text, "}}}");
+}
+
 static void write_hull_node(sbfi_glb *g, uint32_t i) {
+  if (g->rigid->bodies[i].shape != SBF_NONE) {
+    write_box_node(g, i);
+    return;
+  }
   uint32_t mesh = write_hull_mesh(g, i);
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_NODES, NULL);
   sbfi_export_print(text, "{\"name\":\"hull\",\"mesh\":%u}", mesh);
@@ -352,5 +397,10 @@ void sbfi_glb_write_rigid_document(const sbfi_glb *g, sbfi_text *json, bool firs
   write_list(json, "physicsMaterials", &g->rigid->materials, &first_list);
   write_list(json, "collisionFilters", &g->rigid->filters, &first_list);
   write_list(json, "physicsJoints", &g->rigid->joints, &first_list);
+  sbfi_text_char(json, '}');
+  if (!g->rigid->shape_count) return;
+  first_list = true;
+  sbfi_export_print(json, ",\"%s\":{", SHAPES);
+  write_list(json, "shapes", &g->rigid->shapes, &first_list);
   sbfi_text_char(json, '}');
 }

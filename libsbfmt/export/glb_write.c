@@ -29,6 +29,7 @@ static void write_extensions_used(const sbfi_glb *g, sbfi_text *json) {
   const char *const extensions[] = {g->emissive_strength ? "KHR_materials_emissive_strength" : NULL,
       g->texture_transform ? "KHR_texture_transform" : NULL, g->texture_webp ? "EXT_texture_webp" : NULL,
       sbfi_glb_has_rigid(g) ? "KHR_physics_rigid_bodies" : NULL,
+      g->rigid && g->rigid->shape_count ? "KHR_implicit_shapes" : NULL,
       g->e->soft_bodies ? SBFI_GLTF_EXTENSION : NULL};
   uint32_t used = 0;
   for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
