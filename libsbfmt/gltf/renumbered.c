@@ -59,13 +59,14 @@ bool sbfi_find_stated_mesh(
   } else if (!own) {
     sbfi_glb_file_item(&r->file, "meshes", stated->number); /* states the error */
   }
-  sbfi_glb_file quiet = r->file;
-  quiet.error = NULL;
+  sbfi_glb_file unreported = r->file;
+  unreported.error = NULL;
   for (uint32_t i = 0; meshes && i < meshes->count; i++) {
     const sbfi_json *mesh = sbfi_json_at(meshes, i);
-    if (i == stated->number || count_vertices(&quiet, mesh) != stated->vertex_count) continue;
+    if (i == stated->number || count_vertices(&unreported, mesh) != stated->vertex_count) continue;
     if (r->mesh_comparisons++ == MAX_COMPARISONS) return false;
-    if (has_checksum(&quiet, mesh, stated, vertices)) return take(r, "meshes", stated->number, i, "checksum");
+    if (has_checksum(&unreported, mesh, stated, vertices))
+      return take(r, "meshes", stated->number, i, "checksum");
   }
   return false;
 }
@@ -75,10 +76,10 @@ bool sbfi_find_stated_mesh(
 const sbfi_json *sbfi_find_named_item(
     sbfi_gltf_reader *r, const char *list, uint32_t number, const char *name) {
   const sbfi_json *items = sbfi_json_get(r->file.root, list), *own = sbfi_json_at(items, number);
-  uint32_t found = 0, place = 0;
+  uint32_t found = 0, index = 0;
   if (sbfi_json_is_string(sbfi_json_get(own, "name"), name)) return own;
   for (uint32_t i = 0; items && items->type == SBFI_JSON_ARRAY && i < items->count; i++)
-    if (sbfi_json_is_string(sbfi_json_get(sbfi_json_at(items, i), "name"), name)) found++, place = i;
+    if (sbfi_json_is_string(sbfi_json_get(sbfi_json_at(items, i), "name"), name)) found++, index = i;
   if (found != 1) return sbfi_glb_file_item(&r->file, list, number);
-  return take(r, list, number, place, "name") ? sbfi_json_at(items, place) : NULL;
+  return take(r, list, number, index, "name") ? sbfi_json_at(items, index) : NULL;
 }
