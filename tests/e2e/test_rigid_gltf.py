@@ -173,6 +173,15 @@ class ClosedForms(RigidTest):
             for value, wanted in zip(at + turn, (x, 50, 0, 0, 0, 0, 1)):
                 self.assertAlmostEqual(value, wanted, delta=1e-3)
 
+    def test_a_body_comes_to_rest_on_a_static_collider(self):
+        scene = Scene()
+        scene.body("box", at=(0, 52, 0), mass=1)
+        scene.body("ball", at=(1.5, 52, 0), mass=1, collider=scene.shape("sphere", radius=0.5))
+        scene.node("table", None, {"collider": scene.shape("box", size=[6, 1, 6])}, translation=[0, 50, 0])
+        moves = self.motion(self.convert(scene)[0], 3)
+        for name in ("box", "ball"):
+            self.assertAlmostEqual(moves[name][-1][1][1], 51, delta=5e-3)
+
     def test_a_distance_and_a_cone(self):
         scene = Scene()
         ball = scene.body("ball", mass=1)
@@ -495,9 +504,10 @@ class Samples(RigidTest):
         self.assertAlmostEqual(math.dist(center, (3.0006042, 2.5743825, 0)), 0.35, delta=1e-5)
         moves = self.motion(bundle, 2)
         for name in ("Balloon_GravityFactor", "Balloon_GravityFactor.001"):
-            (_, start, _), (time, end, _) = moves[name][0], moves[name][-1]
+            (_, start, _), (time, end, _) = moves[name][0], moves[name][30]  # before it touches another
             self.assertAlmostEqual(end[1] - start[1], 0.25 * GRAVITY * time**2, delta=5e-3)
-        self.assertEqual(moves["Wheel_InfiniteMassFiniteInertia"][0][1], moves["Wheel_InfiniteMassFiniteInertia"][-1][1])
+        wheel = moves["Wheel_InfiniteMassFiniteInertia"]
+        self.assertLess(math.dist(wheel[0][1], wheel[-1][1]), 1e-4)
 
     def test_the_robot_stands_without_bursting(self):
         bundle = self.bundle("Robot_skinned.gltf")

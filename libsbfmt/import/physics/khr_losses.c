@@ -6,7 +6,7 @@ static const char *const texts[SBFI_LOSS_COUNT] = {
     [SBFI_LOSS_CONCAVE] = "concave collision meshes: their convex hulls",
     [SBFI_LOSS_PLANE] = "planes and flat meshes: slabs below them, 200 m wide for infinite planes",
     [SBFI_LOSS_STATIC] =
-        "static colliders: kinematic bodies, which others meet in a world with body contacts",
+        "static colliders: kinematic bodies, which others meet in worlds with body contacts, as of `run`",
     [SBFI_LOSS_GEOMETRY] = "collision shapes that are flat or cannot be read: left out",
     [SBFI_LOSS_SHAPE_TYPE] = "collision shapes of unknown types: left out",
     [SBFI_LOSS_TRIGGER] = "triggers: left out",
