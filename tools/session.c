@@ -6,6 +6,7 @@
 
 #include "output_name.h"
 #include "sbrun/animation.h"
+#include "sbrun/collision.h"
 #include "sbrun/rigid.h"
 #include "standing.h"
 
@@ -190,6 +191,15 @@ static void begin(session *s) {
   loosen_rigid_parts(s);
 }
 
+/* Whether the file has surroundings: hulls that neither a bone nor a force moves. */
+static bool has_static_bodies(const sbf_asset *asset) {
+  for (uint32_t i = 0; i < asset->rigid_bodies.count; i++) {
+    const sbf_rigid_body *body = &asset->rigid_bodies.at[i];
+    if (body->bone == SBF_NONE && body->motion == SBF_BODY_MOTION_KINEMATIC && body->hull) return true;
+  }
+  return false;
+}
+
 static sbf_status create(session *s, sbf_diagnostic *error) {
   const session_settings *set = &s->settings;
   sbf_status status = sbr_model_create(s->asset, &set->model, &s->model, error);
@@ -201,6 +211,8 @@ static sbf_status create(session *s, sbf_diagnostic *error) {
   world.has_gravity = set->model.has_gravity;
   world.gravity = set->model.gravity;
   status = sbr_world_create(&world, &s->world, error);
+  if (status == SBF_OK && has_static_bodies(s->asset))
+    status = sbr_world_enable_body_contacts(s->world, 0, error);
   return status == SBF_OK ? create_character(s, error) : status;
 }
 

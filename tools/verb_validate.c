@@ -115,10 +115,16 @@ typedef struct repaired {
   checked left;
 } repaired;
 
+/* What a load mends is a repair. */
+static void take_loading(void *user, const sbf_diagnostic *diagnostic) {
+  repaired *m = user;
+  findings_add(diagnostic->code == SBF_CODE_GLTF_RENUMBERED ? &m->done : &m->left.found, diagnostic);
+}
+
 /* Loads a file even if its only errors can be repaired. */
-static sbf_status load_for_repair(const char *path, sbf_asset **asset, checked *refused) {
-  sbf_load_options loading = {
-      .check_crc = true, .mendable = true, .report = findings_take, .user = &refused->found};
+static sbf_status load_for_repair(const char *path, sbf_asset **asset, repaired *m) {
+  sbf_load_options loading = {.check_crc = true, .mendable = true, .report = take_loading, .user = m};
+  checked *refused = &m->left;
   sbf_diagnostic error;
   sbf_status status = sbf_load_file(path, &loading, asset, &error);
   if (status == SBF_OK) return SBF_OK;
@@ -130,7 +136,7 @@ static sbf_status load_for_repair(const char *path, sbf_asset **asset, checked *
 static sbf_status repair(const char *from, const char *to, repaired *m, sbf_diagnostic *error) {
   sbf_asset *asset, *fixed;
   sbf_fix_options options = {.report = findings_take, .user = &m->done};
-  sbf_status status = load_for_repair(from, &asset, &m->left);
+  sbf_status status = load_for_repair(from, &asset, m);
   if (status != SBF_OK) return status;
   uint32_t left_out = (uint32_t)m->left.found.count; /* of a newer version */
   status = sbf_fix(asset, &options, &fixed, NULL, error);

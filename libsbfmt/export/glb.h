@@ -3,8 +3,8 @@
  * base/text.h prints the JSON, as for all formats: shortest digits, no locale, out of memory is reported. No
  * other feature of a JSON library is needed.
  *
- * Nodes: one per bone, in order; one per written mesh, in order; if there are bones, their root; and ends of
- * swinging bones. */
+ * Nodes: one per bone, in order; one per written mesh, in order; if there are bones, their root; ends of
+ * swinging bones; and those of rigid bodies and joints. */
 #ifndef SBFI_GLB_H
 #define SBFI_GLB_H
 
@@ -63,6 +63,7 @@ typedef struct sbfi_glb {
   size_t frame_points;              /* of all render meshes */
   uint32_t root_node;               /* parent of the bones */
   struct sbfi_glb_springs *springs; /* export/glb_springs.h; NULL: nothing swings */
+  struct sbfi_glb_rigid *rigid;     /* export/glb_rigid.h; NULL: no rigid bodies */
   bool root_is_joint;               /* it is also the joint of points without a bone */
   bool emissive_strength, texture_transform, texture_webp; /* used extensions */
   bool failed;                                             /* memory ran out */

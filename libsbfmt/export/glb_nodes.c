@@ -1,37 +1,10 @@
 /* Writes bones as nodes, their skin, and the meshes' parents. */
 #include <math.h>
 
+#include "export/glb_rigid.h"
 #include "export/glb_springs.h"
 #include "model/level_mesh.h"
 #include "motion/quatd.h"
-
-static void unit(sbf_quat q, double to[4]) {
-  to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w;
-  double squares = to[0] * to[0] + to[1] * to[1] + to[2] * to[2] + to[3] * to[3];
-  double length = squares > 0 ? sqrt(squares) : 1;
-  for (int k = 0; k < 4; k++) to[k] /= length;
-  if (!(squares > 0)) to[3] = 1;
-}
-
-void sbfi_glb_compute_local(
-    sbfi_glb_transform own, const sbfi_glb_transform *parent, float translation[3], float rotation[4]) {
-  double orientation[4], up[4] = {0, 0, 0, 1}, at[3] = {own.position.x, own.position.y, own.position.z};
-  unit(own.rotation, orientation);
-  if (parent) {
-    const double from[3] = {parent->position.x, parent->position.y, parent->position.z};
-    unit(parent->rotation, up);
-    sbfi_quatd_conjugate(up, up);
-    for (int k = 0; k < 3; k++) at[k] -= from[k];
-    sbfi_quatd_rotate(up, at, at);
-    sbfi_quatd_multiply(up, orientation, orientation);
-  }
-  for (int k = 0; k < 3; k++) translation[k] = (float)at[k];
-  for (int k = 0; k < 4; k++) rotation[k] = (float)orientation[k];
-}
-
-sbfi_glb_transform sbfi_glb_rest(const sbf_asset *asset, uint32_t bone) {
-  return (sbfi_glb_transform){asset->bones.at[bone].head, asset->bones.at[bone].rotation};
-}
 
 /* Whether some point of a skin has no bone. */
 static bool has_unweighted_points(const sbf_skin *skin, uint32_t points) {
@@ -113,7 +86,10 @@ static void write_bone(sbfi_glb *g, uint32_t i) {
     if (g->meshes[k].node != UINT32_MAX && g->meshes[k].bone == (int32_t)i)
       add_child(text, g->meshes[k].node, &first);
   sbfi_glb_add_end_child(g, i, text, &first);
-  sbfi_text_string(text, first ? "}" : "]}");
+  sbfi_glb_add_rigid_children(g, (int32_t)i, text, &first);
+  if (!first) sbfi_text_char(text, ']');
+  sbfi_glb_write_bone_physics(g, i, text);
+  sbfi_text_char(text, '}');
 }
 
 static void write_mesh_node(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t number) {
@@ -178,13 +154,17 @@ void sbfi_glb_write_nodes(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
   uint32_t number = 0;
   sbfi_glb_plan_springs(g, g->root_node + 1);
+  uint32_t end_nodes = g->springs ? g->springs->end_count : 0;
+  sbfi_glb_plan_rigid(g, g->root_node + (asset->bones.count ? 1 + end_nodes : 0));
   for (uint32_t i = 0; i < asset->bones.count && !g->failed; i++) write_bone(g, i);
   for (uint32_t i = 0; i < asset->render_meshes.count && !g->failed; i++) {
     if (g->meshes[i].node == UINT32_MAX) continue;
     write_mesh_node(g, &g->meshes[i], number++);
   }
-  if (!asset->bones.count) return;
-  write_root(g);
-  write_skin(g);
-  sbfi_glb_write_end_nodes(g);
+  if (asset->bones.count) {
+    write_root(g);
+    write_skin(g);
+    sbfi_glb_write_end_nodes(g);
+  }
+  sbfi_glb_write_rigid_nodes(g);
 }

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "export/glb_rigid.h"
 #include "export/glb_springs.h"
 #include "gltf/soft_body_reader.h"
 
@@ -21,6 +22,7 @@ static void write_scene(sbfi_glb *g, sbfi_text *json) {
     sbfi_export_print(json, "%s%u", first ? "" : ",", g->meshes[i].node);
     first = false;
   }
+  sbfi_glb_write_rigid_tops(g, json, &first);
   sbfi_text_string(json, "]}]");
 }
 
@@ -31,6 +33,8 @@ static bool has_springs(const sbfi_glb *g) {
 static void write_extensions_used(const sbfi_glb *g, sbfi_text *json) {
   const char *const extensions[] = {g->emissive_strength ? "KHR_materials_emissive_strength" : NULL,
       g->texture_transform ? "KHR_texture_transform" : NULL, g->texture_webp ? "EXT_texture_webp" : NULL,
+      sbfi_glb_has_rigid(g) ? "KHR_physics_rigid_bodies" : NULL,
+      g->rigid && g->rigid->shape_count ? "KHR_implicit_shapes" : NULL,
       g->e->soft_bodies ? SBFI_GLTF_EXTENSION : NULL, has_springs(g) ? "VRMC_springBone" : NULL,
       has_springs(g) && g->springs->extended ? "VRMC_springBone_extended_collider" : NULL};
   uint32_t used = 0;
@@ -63,16 +67,20 @@ static void write_json(sbfi_glb *g, sbfi_text *json, const sbfi_text *soft_body)
     sbfi_text_append(json, part->text.at, part->text.length);
     sbfi_text_char(json, ']');
   }
-  if (soft_body->length || has_springs(g)) sbfi_text_string(json, ",\"extensions\":{");
-  if (soft_body->length) {
-    sbfi_text_string(json, "\"" SBFI_GLTF_EXTENSION "\":");
-    sbfi_text_append(json, soft_body->at, soft_body->length);
+  if (soft_body->length || sbfi_glb_has_rigid(g) || has_springs(g)) {
+    sbfi_text_string(json, ",\"extensions\":{");
+    if (soft_body->length) {
+      sbfi_text_string(json, "\"" SBFI_GLTF_EXTENSION "\":");
+      sbfi_text_append(json, soft_body->at, soft_body->length);
+    }
+    sbfi_glb_write_rigid_document(g, json, !soft_body->length);
+    if (has_springs(g)) {
+      bool first = !soft_body->length && !sbfi_glb_has_rigid(g);
+      sbfi_text_string(json, first ? "\"VRMC_springBone\":" : ",\"VRMC_springBone\":");
+      sbfi_glb_write_springs(g, json);
+    }
+    sbfi_text_char(json, '}');
   }
-  if (has_springs(g)) {
-    sbfi_text_string(json, soft_body->length ? ",\"VRMC_springBone\":" : "\"VRMC_springBone\":");
-    sbfi_glb_write_springs(g, json);
-  }
-  if (soft_body->length || has_springs(g)) sbfi_text_char(json, '}');
   sbfi_text_char(json, '}');
   sbfi_text_repeat(json, ' ', (4 - json->length % 4) % 4);
 }
@@ -119,13 +127,18 @@ static sbf_status write_chunks(sbfi_glb *g, const sbfi_text *json) {
 
 static void report_unsupported(const sbfi_glb *g) {
   const sbf_asset *a = g->e->asset;
-  uint32_t uv_sets = 0, inherit = 0;
+  uint32_t uv_sets = 0, inherit = 0, none[SBFI_RIGID_LOSSES] = {0};
+  const uint32_t *losses = g->rigid ? g->rigid->losses : none;
   for (uint32_t i = 0; i < a->render_meshes.count; i++)
     if (a->render_meshes.at[i].uv_sets.count > 4) uv_sets += a->render_meshes.at[i].uv_sets.count - 4;
   for (uint32_t i = 0; i < a->bones.count; i++)
     inherit += !a->bones.at[i].inherit_rotation || !a->bones.at[i].inherit_scale;
   const sbfi_left_out things[] = {{a->soft_bodies.count, "soft bodies"},
-      {a->rigid_bodies.count, "rigid bodies"}, {a->joints.count, "joints between them"},
+      {g->e->motion ? a->rigid_bodies.count : 0, "rigid bodies"},
+      {g->e->motion ? a->joints.count : 0, "joints between them"}, {losses[SBFI_RIGID_PULLEYS], "pulleys"},
+      {losses[SBFI_RIGID_BREAKING], "breaking forces of joints"},
+      {losses[SBFI_RIGID_BOUNCING_LIMITS], "restitutions of joint limits"},
+      {losses[SBFI_RIGID_DRIVES], "drives of cones and distances"},
       {a->ik_chains.count, "inverse kinematics"}, {a->gaits.count, "gaits"},
       {g->springs ? g->springs->chains_left_out : a->chains.count, "chains"},
       {g->springs ? g->springs->followers_left_out : a->followers.count, "followers"},
@@ -183,6 +196,7 @@ sbf_status sbfi_export_glb(sbfi_export *e) {
   if (e->motion) g.bone_motions = sbfi_glb_allocate(&g, asset->bones.count, sizeof *g.bone_motions);
   sbf_status status = g.failed ? sbfi_export_no_memory(e) : write_all(&g);
   for (int i = 0; i < SBFI_GLB_PARTS; i++) sbfi_text_free(&g.parts[i].text);
+  sbfi_glb_free_rigid(&g);
   sbfi_text_free(&g.bytes);
   sbfi_arena_free(&g.arena);
   return status;

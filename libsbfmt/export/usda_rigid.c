@@ -21,6 +21,16 @@ static void write_mass(usda_writer *w, const sbf_rigid_body *body) {
   sbfi_usda_write_quat(w, "quatf physics:principalAxes", measures.inertia_rotation);
 }
 
+/* Angular velocity is in degrees per second. */
+static void write_velocities(usda_writer *w, const sbf_rigid_body *body) {
+  const sbf_vec3 v = body->velocity, turn = body->angular_velocity;
+  const float degrees = (float)DEGREES;
+  if (v.x != 0 || v.y != 0 || v.z != 0) sbfi_usda_write_vec3(w, "vector3f physics:velocity", v);
+  if (turn.x != 0 || turn.y != 0 || turn.z != 0)
+    sbfi_usda_write_vec3(w, "vector3f physics:angularVelocity",
+        (sbf_vec3){turn.x * degrees, turn.y * degrees, turn.z * degrees});
+}
+
 static void write_hull(usda_writer *w, const sbf_rigid_body *body, uint32_t index) {
   const sbf_polygon_mesh *hull = body->hull;
   sbfi_usda_open_plain(
@@ -58,6 +68,7 @@ void sbfi_usda_write_rigid_bodies(usda_writer *w) {
     if (body->motion == SBF_BODY_MOTION_KINEMATIC)
       sbfi_usda_write_line(w, "bool physics:kinematicEnabled = true");
     write_mass(w, body);
+    write_velocities(w, body);
     if (body->hull && body->hull->polygon_sizes.count) write_hull(w, body, i);
     sbfi_usda_close(w);
   }

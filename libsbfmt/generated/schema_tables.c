@@ -143,8 +143,10 @@ static const sbfi_field rigid_body_fields[] = {
   {.name = "mask", .type = SBFI_UINT, .number = 16, .since_minor = 0, .offset = offsetof(sbf_rigid_body, mask), .width = 1, .unit = "", .initial.integer = 4294967295u},
   {.name = "hull", .type = SBFI_OPTIONAL, .number = 17, .since_minor = 0, .offset = offsetof(sbf_rigid_body, hull), .width = 1, .unit = "", .element = &polygon_mesh_element, .tag.xml = "polygon_mesh", .fixed.name = "target", .fixed.value = 2},
   {.name = "hull_derived", .type = SBFI_REF, .number = 18, .since_minor = 0, .offset = offsetof(sbf_rigid_body, hull_derived), .width = 1, .unit = "", .reference.offset = offsetof(sbf_asset, derivations), .reference.name = "derivations"},
+  {.name = "velocity", .type = SBFI_VEC3, .number = 19, .since_minor = 3, .offset = offsetof(sbf_rigid_body, velocity), .width = 3, .unit = "m/s"},
+  {.name = "angular_velocity", .type = SBFI_VEC3, .number = 20, .since_minor = 3, .offset = offsetof(sbf_rigid_body, angular_velocity), .width = 3, .unit = "rad/s"},
 };
-static const sbfi_element rigid_body_element = {"rigid_body", "rigid_body", sizeof(sbf_rigid_body), 0, 18, rigid_body_fields, NULL};
+static const sbfi_element rigid_body_element = {"rigid_body", "rigid_body", sizeof(sbf_rigid_body), 0, 20, rigid_body_fields, NULL};
 
 static const sbfi_field frame_fields[] = {
   {.name = "position", .type = SBFI_VEC3, .number = 1, .since_minor = 0, .offset = offsetof(sbf_frame, position), .width = 3, .unit = "m"},

@@ -1,5 +1,6 @@
 /* Fills the lists that the extension takes from the glTF file: those of render meshes, clips and images. */
 #include "gltf/mesh_lists.h"
+#include "gltf/renumbered.h"
 #include "gltf/soft_body_reader.h"
 
 /* A render mesh while its lists are restored. */
@@ -185,18 +186,15 @@ static bool restore_mesh(sbfi_gltf_reader *r, const sbfi_json *json, sbf_render_
   if (!source) return true;
   if (!sbfi_json_u32(sbfi_json_get(source, "mesh"), &number))
     return fault(r, "render_meshes", "the mesh is missing");
-  const sbfi_json *gltf_mesh = sbfi_glb_file_item(&r->file, "meshes", number);
-  if (!gltf_mesh || !sbfi_mesh_vertices_find(
-                        &r->file, gltf_mesh, mesh->mesh.polygon_sizes, mesh->polygon_materials, &m.vertices))
+  const sbfi_gltf_list points = {"vertices", SBFI_ITEM_U32, 1};
+  sbfi_stated_mesh stated = {
+      .number = number, .sizes = mesh->mesh.polygon_sizes, .materials = mesh->polygon_materials};
+  if (!sbfi_json_u32(sbfi_json_get(source, "crc32"), &stated.crc32))
+    return fault(r, "render_meshes", "the checksum is missing");
+  if (!sbfi_json_get(maps, "points")) return fault(r, "vertices", "the list of its vertices is missing");
+  if (!sbfi_gltf_count(r, sbfi_json_get(maps, "points"), &points, &stated.vertex_count) ||
+      !sbfi_find_stated_mesh(r, &stated, &m.vertices))
     return false;
-  uint32_t stated, found;
-  if (!sbfi_mesh_checksum(&r->file, &m.vertices, &found)) return false;
-  if (!sbfi_json_u32(sbfi_json_get(source, "crc32"), &stated) || stated != found)
-    return sbfi_glb_fault(&r->file, SBF_CODE_GLTF_CHANGED,
-        "another program changed the points or triangles of mesh %u: its soft bodies belong to the old ones, "
-        "so use "
-        "the file as it was before, or convert this one anew",
-        number);
   if (!(m.point_of_vertex = read_map(&m, sbfi_json_get(maps, "points"), "vertices")) ||
       !restore_points(&m, mesh))
     return false;
@@ -241,7 +239,8 @@ static bool restore_clip(sbfi_gltf_reader *r, const sbfi_json *json, const sbf_c
   if (!source) return true;
   if (!sbfi_json_u32(sbfi_json_get(source, "animation"), &number))
     return fault(r, "clips", "the animation is missing");
-  const sbfi_json *animation = sbfi_glb_file_item(&r->file, "animations", number);
+  const sbfi_json *animation =
+      sbfi_find_named_item(r, "animations", number, *clip->name ? clip->name : clip->id);
   if (!animation) return false;
   for (uint32_t t = 0; t < clip->tracks.count; t++) {
     sbf_track *track = (sbf_track *)(uintptr_t)&clip->tracks.at[t];
@@ -269,7 +268,8 @@ static bool restore_image(sbfi_gltf_reader *r, const sbfi_json *json, sbf_textur
   if (!take(r, sbfi_json_get(json, "bytes")) && !is_extra) return true;
   if (!sbfi_json_u32(sbfi_json_get(source, "image"), &number))
     return fault(r, "textures", "the image is missing");
-  const sbfi_json *image = sbfi_glb_file_item(&r->file, "images", number);
+  const sbfi_json *image =
+      sbfi_find_named_item(r, "images", number, *texture->name ? texture->name : texture->id);
   if (!image) return false;
   if (!sbfi_json_u32(sbfi_json_get(image, "bufferView"), &view)) return changed(r, "textures");
   if (!sbfi_glb_file_view(&r->file, view, &bytes)) return false;

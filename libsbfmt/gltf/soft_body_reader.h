@@ -24,10 +24,11 @@ typedef struct sbfi_gltf_reader {
   sbfi_arena scratch;       /* until the load ends; the file's JSON too */
   sbfi_packed_coder coder;
   uint64_t inflated_bytes, inflated_limit;
-  uint32_t minor;          /* of the version that the extension states */
-  bool newer;              /* a later minor version: may have unknown content */
-  uint32_t borrowed_count; /* lists that are to be taken from the glTF file */
-  uint32_t left_out;       /* skipped members of a newer version */
+  uint32_t minor;            /* of the version that the extension states */
+  bool newer;                /* a later minor version: may have unknown content */
+  uint32_t borrowed_count;   /* lists that are to be taken from the glTF file */
+  uint32_t mesh_comparisons; /* with stated checksums */
+  uint32_t left_out;         /* skipped members of a newer version */
   char first_left_out[160];
 } sbfi_gltf_reader;
 

@@ -242,6 +242,16 @@ static int clip_to_face(const outline *face, const outline *found, float slack, 
   return current;
 }
 
+/* Whether a point is within the face, with a margin of `slack`. */
+static bool is_over(const outline *face, float u, float v, float slack) {
+  for (uint32_t i = 0; face->count > 2 && i < face->count; i++) {
+    uint32_t k = (i + 1) % face->count;
+    float du = face->u[k] - face->u[i], dv = face->v[k] - face->v[i], size = sqrtf(du * du + dv * dv);
+    if (size > 1e-12f && ((v - face->v[i]) * du - (u - face->u[i]) * dv) / size < -slack) return false;
+  }
+  return true;
+}
+
 /* The reference face is that of the axis. The incident points are all vertices of the other hull near it,
  * clipped to the reference face. If none of these is over the face, as for a plank across a sill, the
  * incident face is clipped instead. */
@@ -250,6 +260,7 @@ static void add_patches(const sbri_placed_hull *face_of, const sbri_placed_hull 
   sbf_vec3 x_axis = fabsf(n.x) < 0.7f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 1, 0);
   sbf_vec3 u_axis = sbri_normalize(sbri_cross(x_axis, n), x_axis), v_axis = sbri_cross(n, u_axis);
   float offset = sbri_dot(n, support_point(face_of, n));
+  float lowest = INFINITY;
   outline found, face, buffers[2];
   gather(face_of, sbri_scale(n, -1), -offset, 1e-3f * reach + 1e-5f, u_axis, v_axis, &found);
   make_outline(&found, &face);
@@ -266,7 +277,16 @@ static void add_patches(const sbri_placed_hull *face_of, const sbri_placed_hull 
     if (gap > reach) continue;
     sbf_vec3 on_face = sbri_add_scaled(x, n, -gap);
     sbri_hull_pair_add(pair, of_a ? on_face : x, of_a ? x : on_face, gap);
+    lowest = gap < lowest ? gap : lowest;
   }
+  /* The deepest vertex of a pointed or round hull lies inside the outline of those around it. */
+  sbf_vec3 deepest = support_point(other, sbri_scale(n, -1));
+  float gap = sbri_dot(n, deepest) - offset;
+  if (gap > reach || gap >= lowest - 1e-3f * reach ||
+      !is_over(&face, sbri_dot(u_axis, deepest), sbri_dot(v_axis, deepest), 1e-3f * reach))
+    return;
+  sbf_vec3 on_face = sbri_add_scaled(deepest, n, -gap);
+  sbri_hull_pair_add(pair, of_a ? on_face : deepest, of_a ? deepest : on_face, gap);
 }
 
 bool sbri_collide_hulls(

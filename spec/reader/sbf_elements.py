@@ -1,10 +1,8 @@
 """Which elements and fields there are, taken down from reference.md and kept by hand: this reader uses nothing of the
 schema or from anything made of it, so that it can tell whether those say the same as the specification.
 
-A line of ELEMENTS without indentation begins an element: its name, the name XML gives it where that is another, and
-its kind of part. A field's number is its place. `as` is how children are written in XML where that is not the
-field's own name, `length` the lengths a list may have, `below` what its items index, `since` the minor version that
-brought it.
+A line of ELEMENTS without indentation begins an element: its name, its other name in XML, its kind of part. A field's number is its
+place. `as`: how XML writes children; `length`: of a list; `below`: what its items index; `since`: the minor version of its beginning.
 """
 
 import re
@@ -119,6 +117,8 @@ rigid_body
   mask: uint default=4294967295
   hull: optional(polygon_mesh) as=<polygon_mesh> fixed=target=collision_detection
   hull_derived: ref(derivations)
+  velocity: vec3 since=3
+  angular_velocity: vec3 since=3
 joint
   id: id required
   name: string

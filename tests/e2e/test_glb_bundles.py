@@ -135,6 +135,60 @@ class GlbBundles(ProgramTest):
         path = write_bytes(self.path("moved.glb"), glb_of(document.json, bytes(moved)))
         self.assertIn("GLTF_CHANGED", self.fails(1, "validate", path))
 
+    def renumbered(self, bundle):
+        """The bundle as a .glb whose nodes, meshes, clips and images another program reversed, the extension's text as it was."""
+        packed, changed = self.path("packed.glb"), self.path("renumbered.glb")
+        self.good("pack", bundle, "-o", packed)
+        glb = Glb(packed)
+        document, last = glb.json, {name: len(glb.json.get(name, ())) - 1 for name in ("nodes", "meshes", "images", "animations")}
+        for name, end in last.items():
+            if end >= 0:
+                document[name].reverse()
+        for node in document["nodes"]:
+            if "mesh" in node:
+                node["mesh"] = last["meshes"] - node["mesh"]
+            if "children" in node:
+                node["children"] = [last["nodes"] - child for child in node["children"]]
+            node.pop("extensions", None)  # names nodes as well
+        document["extensions"] = {EXTENSION: document["extensions"][EXTENSION]}
+        for scene in document["scenes"]:
+            scene["nodes"] = [last["nodes"] - node for node in scene["nodes"]]
+        for skin in document.get("skins", ()):
+            skin["joints"] = [last["nodes"] - joint for joint in skin["joints"]]
+            skin["skeleton"] = last["nodes"] - skin["skeleton"]
+        for texture in document.get("textures", ()):
+            if "source" in texture:
+                texture["source"] = last["images"] - texture["source"]
+        for animation in document.get("animations", ()):
+            for channel in animation["channels"]:
+                channel["target"]["node"] = last["nodes"] - channel["target"]["node"]
+        write_bytes(changed, glb_of(document, glb.binary))
+        return packed, changed
+
+    def test_renumbered_parts_are_found_and_written_anew(self):
+        for bundle in (self.xml, os.path.join(VALID, "everything.sbf")):
+            packed, changed = self.renumbered(bundle)
+            said = self.fails(1, "validate", changed)
+            self.assertIn("GLTF_CHANGED", said)
+            self.assertIn("`sbfmt validate --fix`", said)
+            fixed = self.path("fixed.glb")
+            done = self.json_of("validate", changed, "--fix", "-o", fixed)["fixed"]
+            self.assertTrue({"GLTF_RENUMBERED"} <= {one["code"] for one in done})
+            self.assertTrue(any("meshes is now number" in one["message"] and "checksum" in one["message"] for one in done))
+            self.good("validate", fixed)
+            self.good("diff", packed, fixed)
+
+    def test_a_moved_point_is_not_mended(self):
+        packed, changed = self.renumbered(self.xml)
+        glb = Glb(changed)
+        accessor = glb.json["accessors"][glb.json["meshes"][-1]["primitives"][0]["attributes"]["POSITION"]]
+        view = glb.json["bufferViews"][accessor["bufferView"]]
+        binary = bytearray(glb.binary)
+        binary[view.get("byteOffset", 0)] ^= 1
+        write_bytes(changed, glb_of(glb.json, bytes(binary)))
+        self.assertIn("GLTF_CHANGED", self.fails(1, "validate", changed, "--fix", "-o", self.path("fixed.glb")))
+        self.assertFalse(os.path.exists(self.path("fixed.glb")))
+
     def test_what_is_not_ours_is_told(self):
         path = self.changed(lambda document: document.pop("extensions"))
         said = self.fails(1, "info", path)

@@ -50,6 +50,28 @@ START_TEST(faces_meet_in_four_places)
 }
 END_TEST
 
+/* A blunt tip on a face: its lowest corner lies inside the outline of the others near the face. */
+START_TEST(a_tip_is_in_contact)
+{
+  static const uint32_t tip_corners[16] = {0, 3, 2, 1, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+  static const uint32_t sizes[5] = {4, 3, 3, 3, 3};
+  const sbf_vec3 at[5] = {{-1, 0.02f, -1}, {1, 0.02f, -1}, {1, 0.02f, 1}, {-1, 0.02f, 1}, {0, 0, 0}};
+  sbfi_arena arena;
+  arena_begin(&arena);
+  sbri_hull tip, large = box_of(sbri_vec3(2, 1, 2), &arena);
+  ck_assert(sbri_hull_make(&tip, at, 5, sizes, 5, tip_corners, &arena));
+  sbri_placed_hull a = {&tip, {0, 0.99f, 0}, {0, 0, 0, 1}, 1}, b = {&large, {0, 0, 0}, {0, 0, 0, 1}, 1};
+  for (int swap = 0; swap < 2; swap++) {
+    sbri_hull_pair pair;
+    ck_assert(swap ? sbri_collide_hulls(&b, &a, 0.05f, &pair) : sbri_collide_hulls(&a, &b, 0.05f, &pair));
+    ck_assert_float_eq_tol(pair.gaps[0], -0.01f, 1e-5f);
+    sbf_vec3 x = swap ? pair.on_b[0] : pair.on_a[0];
+    ck_assert_float_le(fabsf(x.x) + fabsf(x.z), 1e-5f);
+  }
+  sbfi_arena_free(&arena);
+}
+END_TEST
+
 /* Two beams crosswise, each on an edge: one place. */
 START_TEST(edges_meet_in_one_place)
 {
@@ -106,6 +128,7 @@ int main(void) {
   Suite *suite = suite_create("hull_pair");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, faces_meet_in_four_places);
+  tcase_add_test(tests, a_tip_is_in_contact);
   tcase_add_test(tests, edges_meet_in_one_place);
   tcase_add_test(tests, the_way_out_is_the_least);
   suite_add_tcase(suite, tests);

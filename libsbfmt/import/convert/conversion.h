@@ -23,10 +23,11 @@ typedef struct sbfi_conversion {
   sbf_asset *asset;
   sbfi_arena scratch;
   sbfi_id_set ids;
-  int32_t *bone_of_node;     /* (rig->node_count) bone of each node of the rig, or SBF_NONE */
-  uint32_t *node_of_bone;    /* (asset->bones.count) */
-  int32_t *bone_of_mesh;     /* (scene->mesh_count) bone that each mesh is attached to, or SBF_NONE */
-  const char **name_of_mesh; /* (scene->mesh_count) name of the section */
+  int32_t *bone_of_node;        /* (rig->node_count) bone of each node of the rig, or SBF_NONE */
+  uint32_t *node_of_bone;       /* (asset->bones.count) */
+  int32_t *bone_of_mesh;        /* (scene->mesh_count) bone that each mesh is attached to, or SBF_NONE */
+  const char **name_of_mesh;    /* (scene->mesh_count) name of the section */
+  struct sbfi_physics *physics; /* the file's own rigid bodies (import/physics); NULL: it has none */
   struct sbfi_locomotion *locomotion; /* locomotion and its reasons; NULL until sbfi_evaluate_gait */
   bool keep_misfit;                   /* return the asset even if conversion fails, to show why */
   const sbf_convert_options *options;
@@ -37,6 +38,10 @@ typedef struct sbfi_conversion {
 /* Converts scenes to an asset. `rig` is the same scene, another one, or NULL. */
 sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
     const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error);
+
+/* Converts a scene with its own rig and, if its file has some, its own rigid bodies (import/physics). */
+sbf_status sbfi_convert_own_scene(
+    sbfi_scene *scene, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error);
 
 /* Every pass returns SBF_OK, or a status with c->error filled. */
 sbf_status sbfi_convert_skeleton(sbfi_conversion *c);

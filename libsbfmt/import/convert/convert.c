@@ -20,6 +20,7 @@
 #include "import/gait/propose_gait.h"
 #include "import/gait/rest_pose.h"
 #include "import/paper/dialect2012.h"
+#include "import/physics/physics.h"
 #include "import/rigging/rigging.h"
 #include "import/scene/bind_pose.h"
 #include "import/vrm/vrm.h"
@@ -121,7 +122,19 @@ static void report_joined_points(sbfi_conversion *c) {
         (unsigned long long)vertices, (unsigned long long)points);
 }
 
+/* The passes of a file with its own rigid bodies: no gait, no soft parts. */
+static sbf_status run_physics_passes(sbfi_conversion *c) {
+  static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
+      sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes, sbfi_measure_leaf_bones,
+      sbfi_physics_convert, sbfi_convert_clips};
+  sbf_status status = SBF_OK;
+  report_joined_points(c);
+  for (size_t i = 0; i < sizeof passes / sizeof *passes && status == SBF_OK; i++) status = passes[i](c);
+  return status;
+}
+
 static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
+  if (c->physics && c->physics->is_simulated) return run_physics_passes(c);
   if (c->scene->mesh_count == 0 && !c->rig)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
         "%s has neither a mesh nor a skeleton: there is nothing to convert", c->scene->file);
@@ -164,6 +177,7 @@ static sbf_status read_scene(
  * the file. */
 typedef struct readings {
   const sbfi_scene *scene, *rig;
+  sbfi_physics *physics;
   const sbfi_tet_mesh *tets;
   const sbfi_paper_model *paper;
 } readings;
@@ -174,6 +188,7 @@ static sbf_status convert_readings(
   sbfi_conversion c = {.scene = scene,
       .rig = rig,
       .rig_file = rig != scene ? rig : NULL,
+      .physics = from->physics,
       .options = options,
       .reporter = {options->report, options->user, 0, 0},
       .error = error};
@@ -215,6 +230,18 @@ static sbf_status convert_readings(
 sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
     const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
   return convert_readings(&(readings){.scene = scene, .rig = rig}, options, asset, error);
+}
+
+sbf_status sbfi_convert_own_scene(
+    sbfi_scene *scene, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbfi_physics *physics;
+  sbf_status status = sbfi_physics_read(&physics, scene, options->allocator, error);
+  if (status != SBF_OK) return status;
+  bool has_rig = sbfi_scene_bone_count(scene) || (physics && physics->is_simulated);
+  const readings from = {.scene = scene, .rig = has_rig ? scene : NULL, .physics = physics};
+  status = convert_readings(&from, options, asset, error);
+  sbfi_physics_free(physics);
+  return status;
 }
 
 /* Converts a file without a scene: tetrahedra or the 2012 dialect. */
@@ -282,15 +309,20 @@ sbf_status sbf_convert(
   sbfi_scene scene, rig_scene;
   sbf_status status = read_scene(&scene, input, &reading, error);
   if (status != SBF_OK) return status;
-  const sbfi_scene *rig = sbfi_scene_bone_count(&scene) ? &scene : NULL;
   if (options->rig) {
     status = read_scene(&rig_scene, options->rig, &reading, error);
     if (status == SBF_OK && sbfi_scene_bone_count(&rig_scene) == 0)
       status = sbfi_diagnose(error, SBF_CODE_IMPORT_NO_BONES,
           "the rig file %s has no skeleton: use a file with bones", options->rig);
-    rig = &rig_scene;
+    if (status == SBF_OK && sbfi_physics_is_named(&scene, options->allocator))
+      sbfi_scene_warn(&scene, SBF_CODE_IMPORT_IGNORED, 0,
+          "the file's rigid bodies and joints are left out, because the rig is another file: leave out --rig "
+          "to keep them");
+    if (status == SBF_OK) status = sbfi_convert_scenes(&scene, &rig_scene, options, asset, error);
+  } else {
+    status = sbfi_convert_own_scene(&scene, options, asset, error);
+    if (status != SBF_OK && !error->file[0]) sbfi_copy_text(error->file, sizeof error->file, scene.file);
   }
-  if (status == SBF_OK) status = sbfi_convert_scenes(&scene, rig, options, asset, error);
   if (options->rig) sbfi_scene_free(&rig_scene);
   sbfi_scene_free(&scene);
   return status;

@@ -8,6 +8,7 @@
 #include "build/sections/section_joints.h"
 #include "build/sections/sections.h"
 #include "import/convert/conversion.h"
+#include "import/physics/physics.h"
 
 typedef struct body_center {
   double sum[3];
@@ -149,6 +150,7 @@ sbf_status sbfi_convert_joints(sbfi_conversion *c) {
   const sbf_bone_list bones = c->asset->bones;
   const sbf_soft_body_list sections = c->asset->soft_bodies;
   bool of_skin = limits_known(c);
+  if (c->physics) return sbfi_physics_convert(c);
   if (bones.count == 0 || (sections.count == 0 && !of_skin)) return SBF_OK;
   body_center *centers = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *centers);
   int32_t *body_of_bone = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *body_of_bone);

@@ -9,6 +9,7 @@
 #include "import/convert/convert_colors.h"
 #include "import/convert/convert_pins.h"
 #include "import/convert/covered_sections.h"
+#include "import/physics/physics.h"
 #include "mechanics/extent.h"
 #include "mechanics/flat_body.h"
 #include "mechanics/polygon.h"
@@ -390,6 +391,7 @@ static sbf_status attach_loose(
 
 sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   uint32_t count = c->scene->mesh_count, body_count = 0, render_count = 0;
+  bool is_simulated = c->physics && c->physics->is_simulated;
   if (count == 0) return SBF_OK;
   geometry *geometries = sbfi_arena_allocate(&c->scratch, count, sizeof *geometries);
   sbf_soft_body *bodies = sbfi_convert_allocate(c, count, sizeof *bodies);
@@ -405,7 +407,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
     else if (status == SBF_OK && c->scene->meshes[i].skin.joint_count && c->asset->bones.count)
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
   }
-  if (status == SBF_OK) status = attach_loose(c, geometries, renders, render_count);
+  if (status == SBF_OK && !is_simulated) status = attach_loose(c, geometries, renders, render_count);
   if (status != SBF_OK) return status;
   sbfi_skins skins;
   if (!sbfi_skins_make(&skins, renders, render_count, &c->scratch)) return sbfi_convert_no_memory(c);
@@ -413,6 +415,10 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
     bool skinned = c->scene->meshes[i].skin.joint_count && c->asset->bones.count;
     bool pinned = sbfi_mesh_is_pinned(c, &c->scene->meshes[i]);
     if (geometries[i].is_flat || (skinned && !pinned)) continue;
+    if (is_simulated) { /* moved by rigid bodies, and drawn only */
+      status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
+      continue;
+    }
     sbf_soft_body *body = &bodies[body_count++];
     status = fill_body(c, i, skinned, &geometries[i], body);
     if (status == SBF_OK && pinned && !sbfi_pin_body(c, &c->scene->meshes[i], body))
@@ -428,7 +434,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
         "%s has no surface, because none of its polygons has an area: check whether it is scaled to 0, for "
         "example by its unit",
         c->scene->file);
-  if (status == SBF_OK && body_count == 0)
+  if (status == SBF_OK && body_count == 0 && !is_simulated)
     sbfi_convert_warn(c, SBF_CODE_RIG_NO_SECTIONS,
         "every mesh is skinned and none is attached to a bone directly: the build cuts sections along the "
         "bones");

@@ -259,6 +259,7 @@ typedef enum sbf_code {
   SBF_CODE_GLTF_NO_SOFT_BODY = 822, /* The glTF file lacks the extension SBF_soft_body: make a bundle of it with `sbfmt convert`. */
   SBF_CODE_GLTF_EXTENSION = 823, /* The content of the extension SBF_soft_body is inconsistent: pack the character again. */
   SBF_CODE_GLTF_CHANGED = 824, /* Another program changed the meshes or clips that SBF_soft_body refers to: use the file as it was before. */
+  SBF_CODE_GLTF_RENUMBERED = 825, /* Another program renumbered the meshes, clips or images of the glTF file: write the file again by `sbfmt validate --fix`. */
   SBF_CODE_IMPORT_SYNTAX = 901, /* A line of a text file is malformed: correct it or export it again. */
   SBF_CODE_IMPORT_INDEX = 902, /* A polygon refers to a vertex, normal or texture coordinate that the file does not have: export it again. */
   SBF_CODE_IMPORT_NOT_FINITE = 903, /* A number of the imported file is infinite or not a number: export it again. */
@@ -269,6 +270,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_LIMIT = 908, /* The importer exceeded a limit of time, memory or output: raise the limit if the file is trusted. */
   SBF_CODE_IMPORT_HELPER_MISSING = 909, /* The program sbfmt-import cannot be found or run: install it beside sbfmt or set SBFMT_IMPORT_HELPER. */
   SBF_CODE_IMPORT_STREAM = 910, /* The output of sbfmt-import cannot be read, because it has another version or was truncated: install both programs from one version. */
+  SBF_CODE_IMPORT_PHYSICS = 911, /* KHR_physics_rigid_bodies or KHR_implicit_shapes of the imported glTF file is invalid: correct it in the program that wrote the file. */
   SBF_CODE_IMPORT_MATERIALS_MISSING = 931, /* A material library or a material of the file is missing, so gray is used: put the library beside the file. */
   SBF_CODE_IMPORT_IGNORED = 932, /* The file has content that the format cannot store, which is skipped: no action is needed if you do not need it. */
   SBF_CODE_IMPORT_POINTS_LEFT_OUT = 933, /* Vertices that no polygon uses are left out: join them to polygons if you need them. */

@@ -69,6 +69,9 @@ typedef struct sbf_rigid_body {
   const sbf_polygon_mesh *hull;  /* Convex shape, asset space, rest pose. */
   int32_t hull_derived;          /* Derivation of the hull, if `build` made it.
                                   * [index into asset.derivations, or SBF_NONE] */
+  sbf_vec3 velocity;             /* Initial velocity of a dynamic body's center of mass, in asset space; it turns with
+                                  * the root frame. [m/s] */
+  sbf_vec3 angular_velocity;     /* Initial angular velocity of a dynamic body, in the same space. [rad/s] */
 } sbf_rigid_body;
 typedef struct sbf_rigid_body_list { const sbf_rigid_body *at; uint32_t count; } sbf_rigid_body_list;
 

@@ -2,7 +2,20 @@
 #include <string.h>
 
 #include "coupling/ragdoll/ragdoll.h"
+#include "math/quat.h"
 #include "math/vec3.h"
+
+/* Gives a simulated body the velocities of the file, which turn with the body's frame. */
+static void set_initial_velocity(const sbri_rigid_body *body, sbri_rigid_body_state *state) {
+  const sbf_rigid_body *source = body->source;
+  bool moves = sbri_dot(source->velocity, source->velocity) > 0 ||
+               sbri_dot(source->angular_velocity, source->angular_velocity) > 0;
+  if (!moves || source->motion != SBF_BODY_MOTION_DYNAMIC || state->mode != SBR_RIGID_PASSIVE) return;
+  sbf_quat turned = sbri_quat_multiply(state->pose.rotation, sbri_quat_conjugate(body->axes));
+  state->velocity = sbri_rotate(turned, source->velocity);
+  state->angular_momentum = sbri_angular_momentum_from_velocity(
+      body, state->pose.rotation, sbri_rotate(turned, source->angular_velocity));
+}
 
 void sbri_rigid_reset(sbri_character *c, bool as_in_file) {
   const sbri_rigid_model *model = &c->model->rigid;
@@ -12,10 +25,12 @@ void sbri_rigid_reset(sbri_character *c, bool as_in_file) {
   for (uint32_t b = 0; b < model->body_count; b++) {
     sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     sbri_rigid_set_frame(body, sbri_rigid_target(c, sbri_pose(c), b));
-    if (!as_in_file) continue;
-    bool dynamic = model->bodies[b].source->motion == SBF_BODY_MOTION_DYNAMIC && model->bodies[b].mass > 0;
-    body->mode = dynamic ? SBR_RIGID_PASSIVE : SBR_RIGID_KINEMATIC;
-    body->fraction = 1;
+    if (as_in_file) {
+      bool dynamic = model->bodies[b].source->motion == SBF_BODY_MOTION_DYNAMIC && model->bodies[b].mass > 0;
+      body->mode = dynamic ? SBR_RIGID_PASSIVE : SBR_RIGID_KINEMATIC;
+      body->fraction = 1;
+    }
+    set_initial_velocity(&model->bodies[b], body);
   }
   sbri_rigid_drive(c)->last_step_s = 0;
   sbri_rigid_drive(c)->stored_contacts = 0;

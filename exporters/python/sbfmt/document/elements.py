@@ -223,6 +223,8 @@ ELEMENTS = {element.name: element for element in (
         Field('mask', 'uint', default=4294967295),
         Field('hull', 'optional', 'polygon_mesh', xml='polygon_mesh', fixed=('target', 'collision_detection')),
         Field('hull_derived', 'ref', 'derivations'),
+        Field('velocity', 'vec3', default=(0.0, 0.0, 0.0)),
+        Field('angular_velocity', 'vec3', default=(0.0, 0.0, 0.0)),
     )),
     Element('joint', 'joint', (
         Field('id', 'id', default='', required=True),
