@@ -89,7 +89,8 @@ static void store_invalid(sbfi_xml_list *list, const char *text, size_t length) 
 
 /* Reads the numbers of `text`, none of which is cut off. */
 static sbfi_xml_fault add_numbers(sbfi_xml_list *list, const char *text, size_t length, size_t *offset) {
-  size_t i = 0, used = 0, scalar_limit = (size_t)list->item_limit * list->field->width;
+  size_t i = 0, used = 0;
+  uint64_t scalar_limit = (uint64_t)list->item_limit * list->field->width;
   bool floats = list->field->item == SBFI_ITEM_F32;
   sbfi_number_status status = SBFI_NUMBER_READ;
   if (!sbfi_array_reserve(&list->scalars, list->scalars.count + length / 2 + 1)) return SBFI_XML_NO_MEMORY;

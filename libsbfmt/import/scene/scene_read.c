@@ -27,11 +27,16 @@ static sbf_status read_gltf_extensions(
   return status;
 }
 
+/* As far as addresses of this machine go. */
+static size_t gibibytes(uint32_t count) {
+  return count < SIZE_MAX >> 30 ? (size_t)count << 30 : SIZE_MAX;
+}
+
 sbf_status sbfi_scene_read(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
   sbfi_scene_options o = options ? *options : (sbfi_scene_options){0};
-  if (!o.input_limit_bytes) o.input_limit_bytes = (size_t)4 << 30;
-  if (!o.memory_limit_bytes) o.memory_limit_bytes = (size_t)8 << 30;
+  if (!o.input_limit_bytes) o.input_limit_bytes = gibibytes(4);
+  if (!o.memory_limit_bytes) o.memory_limit_bytes = gibibytes(8);
   if (!sbfi_scene_init(scene, o.allocator, o.memory_limit_bytes, path)) {
     sbf_status status = sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to read a scene");
     return sbfi_scene_fail(scene, error, status);
