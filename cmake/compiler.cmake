@@ -34,6 +34,37 @@ if(SBFMT_FUZZ)
   target_compile_options(sbfmt_compiler INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# sbfmt_system_sources(LIST): leaves the sources of this system in the list. What differs is in one file for each.
+function(sbfmt_system_sources list)
+  set(sources ${${list}})
+  if(WIN32)
+    list(FILTER sources EXCLUDE REGEX "_posix\\.c$")
+  else()
+    list(FILTER sources EXCLUDE REGEX "_windows\\.c$")
+  endif()
+  list(FILTER sources EXCLUDE REGEX "_wasm\\.c$") # for runtime/hosts/web
+  if(EMSCRIPTEN) # as POSIX, but where Node.js has a file of its own
+    set(own ${sources})
+    list(FILTER own INCLUDE REGEX "_node\\.c$")
+    set(others ${own})
+    list(TRANSFORM own REPLACE "_node\\.c$" "_posix.c")
+    list(TRANSFORM others REPLACE "_node\\.c$" ".c")
+    list(REMOVE_ITEM sources ${own} ${others})
+  else()
+    list(FILTER sources EXCLUDE REGEX "_node\\.c$")
+  endif()
+  set(${list} ${sources} PARENT_SCOPE)
+endfunction()
+
+# sbfmt_program(NAME): what programs are linked with.
+function(sbfmt_program name)
+  if(EMSCRIPTEN)
+    # Files are those of Node.js.
+    target_link_options(${name} PRIVATE -sNODERAWFS=1 -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sEXIT_RUNTIME=1 -sTOTAL_STACK=8MB -fexceptions
+      --pre-js=${PROJECT_SOURCE_DIR}/tools/node/program_head.js)
+  endif()
+endfunction()
+
 # sbfmt_library(NAME ALIAS FOLDER...): a library of every .c file in the given folders. A folder is a
 # module here, so a new file joins its library by lying in the right place.
 function(sbfmt_library name alias)
@@ -44,13 +75,7 @@ function(sbfmt_library name alias)
     list(APPEND sources ${found})
   endforeach()
   list(FILTER sources EXCLUDE REGEX "/import/assimp/") # a program of its own
-  # What differs by system is in one file for each.
-  if(WIN32)
-    list(FILTER sources EXCLUDE REGEX "_posix\\.c$")
-  else()
-    list(FILTER sources EXCLUDE REGEX "_windows\\.c$")
-  endif()
-  list(FILTER sources EXCLUDE REGEX "_wasm\\.c$") # for runtime/hosts/web
+  sbfmt_system_sources(sources)
   if(NOT sources)
     # A library needs a source; a declaration makes an honest empty one.
     file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/${name}-empty.c" "typedef int ${alias}_has_no_sources;\n")

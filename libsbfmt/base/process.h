@@ -1,5 +1,6 @@
 /* Runs a program as a child process with limits and captures its output, for work that may crash, hang or
- * exhaust memory. One implementation per system (process_posix.c). */
+ * exhaust memory. One implementation per system (process_posix.c,
+ * process_node.c). */
 #ifndef SBFI_PROCESS_H
 #define SBFI_PROCESS_H
 
@@ -44,6 +45,10 @@ typedef struct sbfi_process_result {
 sbf_status sbfi_process_run(const char *const *arguments, const sbfi_process_limits *limits,
     const sbf_allocator *allocator, sbfi_process_result *result, sbf_diagnostic *error);
 void sbfi_process_result_free(sbfi_process_result *result);
+
+/* Copies the last `length` bytes of standard error, at most SBFI_PROCESS_ERROR_TAIL, to an error_tail: drops a
+ * truncated first character, replaces invalid bytes by "?". */
+void sbfi_process_copy_tail(const char *tail, size_t length, char *to);
 
 /* One line about its end, such as "ended with status 1". */
 void sbfi_process_describe(const sbfi_process_result *result, char *to, size_t size);

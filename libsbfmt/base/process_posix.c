@@ -273,23 +273,6 @@ static sbfi_process_end watch(child *c, const sbfi_process_limits *limits) {
   }
 }
 
-/* The tail as UTF-8 text: drops a truncated first character, replaces invalid bytes by "?". */
-static void copy_tail(const child *c, char *to) {
-  size_t from = 0, length = c->tail_size, size = 0;
-  if (length == SBFI_PROCESS_ERROR_TAIL) /* one byte for the NUL, at most three of a broken character */
-    for (from = 1; from < 4 && ((unsigned char)c->tail[from] & 0xC0) == 0x80;) from++;
-  while (from < length) {
-    size_t good = sbfi_utf8_check(c->tail + from, length - from);
-    for (size_t i = 0; i < good; i++, from++)
-      if (c->tail[from] != 0) to[size++] = c->tail[from];
-    if (from == length) break;
-    to[size++] = '?';
-    from++;
-  }
-  while (size && sbfi_is_space(to[size - 1])) size--;
-  to[size] = 0;
-}
-
 static double seconds_of(struct timeval t) {
   return (double)t.tv_sec + 1e-6 * (double)t.tv_usec;
 }
@@ -334,57 +317,10 @@ sbf_status sbfi_process_run(const char *const *arguments, const sbfi_process_lim
     result->end = result->signal == SIGXCPU || (result->signal == SIGKILL && used_up) ? SBFI_PROCESS_CPU_LIMIT
                                                                                       : SBFI_PROCESS_KILLED;
   }
-  copy_tail(&c, result->error_tail);
+  sbfi_process_copy_tail(c.tail, c.tail_size, result->error_tail);
   if (c.kept.length == 0) sbfi_text_free(&c.kept);
   result->output = (uint8_t *)c.kept.at;
   result->output_size = c.kept.length;
   result->output_capacity = c.kept.capacity;
   return SBF_OK;
-}
-
-void sbfi_process_result_free(sbfi_process_result *result) {
-  sbfi_free(&result->allocator, result->output, result->output_capacity);
-  *result = (sbfi_process_result){.allocator = result->allocator};
-}
-
-static const char *signal_meaning(int number) {
-  switch (number) {
-  case SIGABRT:
-    return " (it aborted)";
-  case SIGSEGV:
-    return " (it accessed memory that it does not own)";
-  case SIGBUS:
-    return " (it accessed memory that does not exist)";
-  case SIGFPE:
-    return " (an arithmetic error)";
-  case SIGILL:
-    return " (an illegal instruction)";
-  case SIGKILL:
-    return " (it was killed, for example by the system when memory ran out)";
-  case SIGTERM:
-  case SIGINT:
-    return " (it was asked to stop)";
-  default:
-    return "";
-  }
-}
-
-void sbfi_process_describe(const sbfi_process_result *result, char *to, size_t size) {
-  switch (result->end) {
-  case SBFI_PROCESS_EXITED:
-    snprintf(to, size, "ended with status %d", result->exit_status);
-    break;
-  case SBFI_PROCESS_KILLED:
-    snprintf(to, size, "stopped by signal %d%s", result->signal, signal_meaning(result->signal));
-    break;
-  case SBFI_PROCESS_TIMED_OUT:
-    snprintf(to, size, "stopped at the time limit");
-    break;
-  case SBFI_PROCESS_CPU_LIMIT:
-    snprintf(to, size, "stopped at the processor time limit");
-    break;
-  case SBFI_PROCESS_OUTPUT_TOO_LARGE:
-    snprintf(to, size, "stopped at the output limit");
-    break;
-  }
 }

@@ -12,7 +12,7 @@
 #include "import/scene/assembly.h"
 #include "import/scene/ply_header.h"
 
-static const char helper_name[] = "sbfmt-import";
+static const char helper_name[] = SBFMT_IMPORT_PROGRAM;
 
 enum { PATH_SIZE = 4096 };
 
