@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Everything that others install, made of built trees and listed with its SHA-256 in SHA256SUMS.
 
-Usage: make_packages.py --static DIR [--shared DIR] [--self-contained DIR] --out DIR [NAME...]
+Usage: make_packages.py --static DIR [--shared DIR] [--self-contained DIR] [--node DIR] --out DIR [NAME...]
 
     debian    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   of the tree of shared libraries (dpkg-shlibdeps and file are needed)
     tarball   sbfmt-VERSION-SYSTEM.tar.gz         static libraries, headers, CMake package, pkg-config files, the program: to be put anywhere
     npm       sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (clang, lld, wasi-libc and npm are needed)
+    program   sbfmt-cli-VERSION.tgz               the program as WebAssembly for Node.js, of a tree for it
     blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library; of the tree of self-contained libraries where
                                                   there is one: then it needs nothing of the system but its C library
     godot     sbfmt-godot-VERSION-SYSTEM.zip      addons/sbfmt for a Godot project (a Godot 4.6 is needed)
@@ -84,8 +85,8 @@ def write_zip(folder, out):
 class Packages:
     """Each of these leaves files in `out`, or returns why it cannot."""
 
-    def __init__(self, static, shared, self_contained, out):
-        self.static, self.shared, self.self_contained, self.out = static, shared, self_contained, out
+    def __init__(self, static, shared, self_contained, node, out):
+        self.static, self.shared, self.self_contained, self.node, self.out = static, shared, self_contained, node, out
         cache = cache_of(static)
         if cache.get("BUILD_SHARED_LIBS") == "ON":
             sys.exit(f"{static} is a tree of shared libraries; --static wants one without BUILD_SHARED_LIBS")
@@ -128,6 +129,13 @@ class Packages:
         shutil.copyfile(os.path.join(self.static, f"sbfmt-{self.version}.tgz"), self.path("npm", ".tgz", native=False))
         return None
 
+    def program(self):
+        if not self.node:
+            return "no tree for Node.js was named: ./run package program makes one where Debian's emscripten is"
+        run("cmake", "--build", self.node, "--target", "sbfmt-program")
+        shutil.copyfile(os.path.join(self.node, f"sbfmt-cli-{self.version}.tgz"), self.path("cli", ".tgz", native=False))
+        return None
+
     def blender(self):
         tree = self.self_contained or self.static
         run("cmake", "--build", tree, "--target", "blender-addon")
@@ -144,7 +152,7 @@ class Packages:
         return None
 
 
-NAMES = ("debian", "tarball", "npm", "blender", "godot")
+NAMES = ("debian", "tarball", "npm", "program", "blender", "godot")
 
 
 def write_sums(folder):
@@ -175,6 +183,7 @@ def main():
     parser.add_argument("--static", required=True)
     parser.add_argument("--shared", default="")
     parser.add_argument("--self-contained", default="")
+    parser.add_argument("--node", default="")
     parser.add_argument("--out", required=True)
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(NAMES))
     asked = parser.parse_args()
@@ -186,7 +195,8 @@ def main():
     beside = tempfile.mkdtemp(prefix=os.path.basename(out) + ".", dir=os.path.dirname(out))
     try:
         packages = Packages(os.path.abspath(asked.static), asked.shared and os.path.abspath(asked.shared),
-                            asked.self_contained and os.path.abspath(asked.self_contained), beside)
+                            asked.self_contained and os.path.abspath(asked.self_contained),
+                            asked.node and os.path.abspath(asked.node), beside)
         missing = make_each(packages, asked.names or NAMES)
         write_sums(beside)
         os.chmod(beside, 0o755)

@@ -62,6 +62,8 @@ def checks(asked, folder):
         os.path.join(asked.scratch, "tarball"), "--cc", asked.cc, *cxx, "--tarball", tarball]
     npm = first(folder, "sbfmt-npm-*.tgz")
     yield "npm package, in a fresh project", npm, [os.path.join(tests, "web", "test_package.py"), npm]
+    cli = first(folder, "sbfmt-cli-*.tgz")
+    yield "the program for Node.js, in a fresh project", cli, [os.path.join(tests, "web", "test_program.py"), cli]
     addon = first(folder, "sbfmt-blender-*.zip")
     blender = os.path.join(tests, "blender", "run_in_blender.py")
     yield "Blender's add-on, in the system's Blender", addon, [blender, "--zip", addon, "test_addon_zip", "test_check_and_build"]

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""test_program.py [TARBALL]: the program as WebAssembly, from its npm package in a fresh project, does what the program of this system does: the same
+bytes, words and exit statuses. Without a tarball it is the one in build/packages, if there is one."""
+import glob
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import web_files
+
+EXAMPLES = os.path.join(web_files.SOURCE, "examples")
+LIZARD = os.path.join(EXAMPLES, "lizard", "lizard.obj")
+RIG = os.path.join(EXAMPLES, "lizard", "lizard.glb")
+FIGURE = os.path.join(EXAMPLES, "bones", "figure.sbf")
+# Words of each call; OUT is a file of its own.
+CALLS = [
+    ["--version"],
+    ["validate", "--help"],
+    ["validate", FIGURE],
+    ["info", FIGURE],
+    ["convert", LIZARD, "--rig", RIG, "-o", "lizard.sbf"],
+    ["convert", os.path.join(EXAMPLES, "koi", "koi.glb"), "-o", "koi.sbfz"],
+    ["validate", "lizard.sbf"],
+    ["build", "lizard.sbf", "--levels", "2", "-o", "levels.sbfz"],
+    ["run", "lizard.sbf", "--seconds", "1", "--drive", "0.3,0.2", "--pose", "pose.csv"],
+    ["pack", "lizard.sbf", "-o", "lizard.glb"],
+    ["unpack", "lizard.glb", "-o", "again.sbf"],
+    ["diff", "lizard.sbf", "again.sbf"],
+    ["export", "lizard.sbf", "-o", "lizard.xml"],
+    ["export", "lizard.sbf", "-o", "mj.mjcf.xml"],
+    ["export", "lizard.sbf", "-o", "page.html"],
+    # What cannot be done says so with the same words and status.
+    ["validate", "not-there.sbf"],
+    ["convert", "broken.glb", "-o", "none.sbf"],
+    ["convert", LIZARD, "--rig", "broken.fbx", "-o", "none.sbf"],
+    ["convert", "broken.glb"],
+    ["run"],
+]
+
+
+def call(program, words, folder):
+    done = subprocess.run([*program, *words], cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)
+    said = re.sub(r"us_per_frame +\S+ us\n", "", done.stdout) + done.stderr
+    return done.returncode, said
+
+
+def files_of(folder):
+    made = {}
+    for name in sorted(os.listdir(folder)):
+        path = os.path.join(folder, name)
+        if os.path.isfile(path):
+            with open(path, "rb") as stream:
+                made[name] = stream.read()
+    return made
+
+
+def compare(node, native, folder):
+    here, there = os.path.join(folder, "here"), os.path.join(folder, "there")
+    for place in (here, there):
+        os.mkdir(place)
+        web_files.write(place, "broken.glb", "glTF and nothing else")
+        web_files.write(place, "broken.fbx", "; FBX 7.3.0 project file\nObjects: {")
+    faults = []
+    for words in CALLS:
+        one, other = call(native, words, here), call(node, words, there)
+        if one != other:
+            faults.append(f"{' '.join(words)}\n--- this system's:\n{one[0]}\n{one[1][-1500:]}\n--- Node.js's:\n{other[0]}\n{other[1][-1500:]}")
+    mine, theirs = files_of(here), files_of(there)
+    if mine.keys() != theirs.keys():
+        faults.append(f"files: {sorted(mine)} and {sorted(theirs)}")
+    faults += [f"{name} has other bytes" for name in mine if theirs.get(name, mine[name]) != mine[name]]
+    return faults
+
+
+def main():
+    web_files.need("node", "npm")
+    made = sys.argv[1:] or sorted(glob.glob(os.path.join(web_files.SOURCE, "build", "packages", "sbfmt-cli-*.tgz")))
+    if not made:
+        web_files.skip("no program for Node.js was made: ./run package program")
+    with tempfile.TemporaryDirectory() as folder:
+        project = os.path.join(folder, "project with spaces, ü")
+        os.mkdir(project)
+        web_files.fresh_project(project, os.path.abspath(made[0]))
+        node = [os.path.join(project, "node_modules", ".bin", "sbfmt")]
+        faults = compare(node, [web_files.SBFMT], folder)
+    if faults:
+        sys.exit("\n\n".join(faults))
+    print(f"{len(CALLS)} calls: the same words, statuses and bytes")
+
+
+main()
