@@ -29,7 +29,8 @@ static sbf_status read_gltf_extensions(
 
 /* As far as addresses of this machine go. */
 static size_t gibibytes(uint32_t count) {
-  return count < SIZE_MAX >> 30 ? (size_t)count << 30 : SIZE_MAX;
+  uint64_t bytes = (uint64_t)count << 30;
+  return bytes < SIZE_MAX ? (size_t)bytes : SIZE_MAX;
 }
 
 sbf_status sbfi_scene_read(
