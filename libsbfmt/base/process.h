@@ -46,8 +46,8 @@ sbf_status sbfi_process_run(const char *const *arguments, const sbfi_process_lim
     const sbf_allocator *allocator, sbfi_process_result *result, sbf_diagnostic *error);
 void sbfi_process_result_free(sbfi_process_result *result);
 
-/* Copies the last `length` bytes of standard error, at most SBFI_PROCESS_ERROR_TAIL, to an error_tail: drops a
- * truncated first character, replaces invalid bytes by "?". */
+/* Copies the last `length` bytes of standard error, at most SBFI_PROCESS_ERROR_TAIL, to an error_tail: drops
+ * a truncated first character, replaces invalid bytes by "?". */
 void sbfi_process_copy_tail(const char *tail, size_t length, char *to);
 
 /* One line about its end, such as "ended with status 1". */

@@ -109,7 +109,7 @@ OUTSIDE = [
     (r"(EGL|GL|GLES\d|KHR)/|png\.h", ["tools/render/", "tools/view/"], "drawing"),
     (r"SDL2?/", ["tools/view/"], "SDL"),
     (r"(sys|linux)/.*|unistd\.h|fcntl\.h|signal\.h|spawn\.h|dlfcn\.h|poll\.h|windows\.h",
-     [r"libsbfmt/base/\w+_(posix|windows)\.[ch]", "libsbfmt/import/assimp/", "tools/", "bench/", "runtime/hosts/"],
+     [r"libsbfmt/base/\w+_(posix|windows|node)\.[ch]", "libsbfmt/import/assimp/", "tools/", "bench/", "runtime/hosts/"],
      "the operating system"),
     (r"pthread\.h|threads\.h", ["tools/", "bench/", "examples/", "runtime/hosts/"], "threads: they come from the host"),
     (r"locale\.h|xlocale\.h", [], "the locale: numbers and text do without"),
