@@ -71,7 +71,7 @@ fetch() {
     mkdir "$work/fetched"
     apt "$work/$list.list" update || continue
     (cd "$work/fetched" && apt "$work/$list.list" source --download-only "$1") || continue
-    sum=$(sha256sum "$work/fetched/$1"_*.orig.tar.[gx]z | cut -d' ' -f1)
+    sum=$(find "$work/fetched" -name "$1_*.orig.tar.*" ! -name '*.asc' -exec sha256sum {} + | cut -d' ' -f1)
     [ "$sum" = "$2" ] || fail "$1 of this archive is not of the version that is known to work (SHA-256 $sum): use Debian 12's archive"
     dpkg-source --no-check -x "$work/fetched/$1"_*.dsc "$work/sources/$1" >>"$log" 2>&1 || break
     return 0
