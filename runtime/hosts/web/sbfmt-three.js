@@ -40,7 +40,7 @@ export class SoftCharacter extends THREE.Group {
       attributes.position.array.set(skin.positions);
       attributes.normal.array.set(skin.normals);
       attributes.position.needsUpdate = attributes.normal.needsUpdate = true;
-      mesh.geometry.boundingSphere = null;
+      mesh.geometry.boundingBox = null; // three.js makes it again where it is asked for
       mesh.geometry.computeBoundingSphere();
     }
   }
