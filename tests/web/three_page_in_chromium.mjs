@@ -41,26 +41,34 @@ const bounds = await tab.evaluate(async () => {
 });
 expect(bounds, "three.js' bounds of the meshes are old");
 
-/** Stops the picture with a soft body under the pointer; where, in pixels. */
+// From here on it moves where the test steps it.
 await tab.evaluate(() => stage.renderer.setAnimationLoop(null));
-const place = await tab.evaluate(() => {
+/** Where a soft body is in the picture, in pixels, not at its edge. */
+const find = () => tab.evaluate(() => {
+  stage.draw();
   const { camera, world, character, renderer } = stage, { clientWidth: width, clientHeight: height } = renderer.domElement;
-  for (let row = 0.2; row < 0.8; row += 0.02)
-    for (let column = 0.2; column < 0.8; column += 0.02) {
-      const eye = camera.position, way = eye.clone().set(2 * column - 1, 1 - 2 * row, 0.5).unproject(camera).sub(eye).normalize();
-      const hit = world.ray(eye.toArray(), way.toArray(), 100);
-      if (hit?.character === character.id && hit.softBody >= 0) return { x: column * width, y: row * height, softBody: hit.softBody };
+  const softBodyAt = (x, y) => {
+    const eye = camera.position, way = eye.clone().set(2 * x / width - 1, 1 - 2 * y / height, 0.5).unproject(camera).sub(eye).normalize();
+    const hit = world.ray(eye.toArray(), way.toArray(), 100);
+    return hit?.character === character.id ? hit.softBody : -1;
+  };
+  for (let y = 100; y < height - 100; y += 10)
+    for (let x = 100; x < width - 100; x += 10) {
+      const softBody = softBodyAt(x, y);
+      if (softBody >= 0 && [[-8, 0], [8, 0], [0, -8], [0, 8]].every(([right, down]) => softBodyAt(x + right, y + down) === softBody))
+        return { x, y, softBody };
     }
   return null;
 });
+const angles = () => tab.evaluate(() => [stage.controls.getAzimuthalAngle(), stage.controls.getPolarAngle()]);
+const place = await find();
 expect(place, 'no soft body is seen');
 if (place) {
   const hash = () => tab.evaluate(() => stage.world.stateHash());
   const still = await hash();
   await tab.mouse.click(place.x, place.y);
   expect(await hash() !== still, 'a click does not push it');
-  const eye = () => tab.evaluate(() => stage.camera.position.toArray());
-  const from = await eye();
+  const from = await angles();
   await tab.mouse.move(place.x, place.y);
   await tab.mouse.down();
   await tab.mouse.move(place.x + 40, place.y - 120, { steps: 4 });
@@ -79,21 +87,25 @@ if (place) {
   await shoot('three-page-pulled');
   expect(force, 'a drag does not pull it');
   await tab.mouse.up();
-  const turned = (await eye()).map((one, i) => one - from[i]);
-  expect(Math.hypot(...turned) < 1, `a drag of the character turns the view by ${turned}`);
-  await tab.mouse.dblclick(place.x, place.y);
-  await tab.evaluate(() => { for (let i = 0; i < 10; i++) stage.step(1 / 60); });
+  const turned = (await angles()).map((one, i) => Math.abs(one - from[i]));
+  expect(Math.max(...turned) < 0.01, `a drag of the character turns the view by ${turned}`);
+  const there = await find() ?? place;
+  await tab.mouse.dblclick(there.x, there.y);
+  const posture = await tab.evaluate(() => {
+    for (let i = 0; i < 10; i++) stage.step(1 / 60);
+    return stage.character.posture;
+  });
+  expect(posture === 'falling', `after a double click its posture is ${posture}`);
 }
 
 // A drag beside it turns the view.
-const azimuth = () => tab.evaluate(() => stage.controls.getAzimuthalAngle());
-const angle = await azimuth();
+const [azimuth] = await angles();
 await tab.mouse.move(20, 20);
 await tab.mouse.down();
 await tab.mouse.move(220, 20, { steps: 4 });
 await tab.mouse.up();
 await tab.evaluate(() => { for (let i = 0; i < 10; i++) stage.controls.update(); });
-expect(Math.abs(await azimuth() - angle) > 0.1, 'a drag beside it does not turn the view');
+expect(Math.abs((await angles())[0] - azimuth) > 0.1, 'a drag beside it does not turn the view');
 
 // It fits another window, and a dark one.
 await tab.emulateMedia({ colorScheme: 'dark' });
