@@ -19,7 +19,7 @@ EXTENSION = "SBF_soft_body"
 PACKAGES = "three@0.170 and the npm package of sbfmt, as README.md of this example shows"
 # Names that scene.js and the modules import, and their files below node_modules.
 ENTRIES = {
-    "three": "three/build/three.module.min.js",
+    "three": "three/build/three.module.js",
     "three/addons/loaders/GLTFLoader.js": "three/examples/jsm/loaders/GLTFLoader.js",
     "three/addons/controls/OrbitControls.js": "three/examples/jsm/controls/OrbitControls.js",
     "sbfmt": "sbfmt/sbfmt.js",
