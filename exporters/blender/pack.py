@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the add-on's zip: the add-on, the Python module inside it, and, where one is named, the library beside the module.
-With a library the manifest names the one platform that it runs on, as Blender wants of an extension. The licences of what is linked
-into the library are the files of a folder.
+"""Makes the add-on's zip: the add-on, the Python module inside it, and the named libraries beside the module. With a library the
+manifest names the platform that it runs on, which Blender requires of an extension. A folder holds the licences of the code that is
+linked into the library.
 
     pack.py OUT.zip [--licences FOLDER] [LIBRARY...]
 """
@@ -11,9 +11,9 @@ import os
 import sys
 import zipfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
 ADDON = "soft_body_format"
-STAMP = (2026, 1, 1, 0, 0, 0)  # the same bytes whenever it is made
+STAMP = (2026, 1, 1, 0, 0, 0)  # a fixed date: the same input gives the same bytes
 
 
 def python_files(folder):
@@ -23,7 +23,7 @@ def python_files(folder):
 
 
 def platform_of(library):
-    """Blender's name of the platform that a library is of, by its header: ELF, PE or Mach-O."""
+    """Blender's name for the platform of a library, from its header: ELF, PE or Mach-O."""
     with open(library, "rb") as file:
         head = file.read(4096)
     if head[:4] == b"\x7fELF":
@@ -35,7 +35,7 @@ def platform_of(library):
 
 
 def with_platforms(manifest, libraries):
-    platforms = sorted({platform_of(library) or sys.exit(f"pack.py: {library} is no library of a platform that Blender names")
+    platforms = sorted({platform_of(library) or sys.exit(f"pack.py: {library} is not a library for a platform that Blender supports")
                         for library in libraries})
     named = ", ".join(f'"{platform}"' for platform in platforms)
     return manifest.replace(b"\n[permissions]", f"platforms = [{named}]\n\n[permissions]".encode()) if platforms else manifest
@@ -51,10 +51,10 @@ def add(archive, path, name, change=None):
 
 
 def main(out, libraries, licences):
-    module = os.path.join(HERE, os.pardir, "python", "sbfmt")
+    module = os.path.join(FOLDER, os.pardir, "python", "sbfmt")
     temporary = f"{out}.{os.getpid()}"
     with zipfile.ZipFile(temporary, "w") as archive:
-        for folder, inside in ((os.path.join(HERE, ADDON), ADDON), (module, f"{ADDON}/sbfmt")):
+        for folder, inside in ((os.path.join(FOLDER, ADDON), ADDON), (module, f"{ADDON}/sbfmt")):
             for path in python_files(folder):
                 change = (lambda content: with_platforms(content, libraries)) if path.endswith("blender_manifest.toml") else None
                 add(archive, path, f"{inside}/{os.path.relpath(path, folder).replace(os.sep, '/')}", change)
@@ -70,5 +70,5 @@ if __name__ == "__main__":
     parser.add_argument("out")
     parser.add_argument("--licences", default="")
     parser.add_argument("libraries", nargs="*")
-    asked = parser.parse_intermixed_args()
-    main(asked.out, asked.libraries, asked.licences)
+    arguments = parser.parse_intermixed_args()
+    main(arguments.out, arguments.libraries, arguments.licences)

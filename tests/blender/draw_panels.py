@@ -224,9 +224,9 @@ def break_something():
 
 
 def mend_it():
-    bpy.ops.sbfmt.mend(index=-1)
+    bpy.ops.sbfmt.repair(index=-1)
     if any(one.code == "SURFACE_WINDING" for one in bpy.context.scene.soft_body_format.findings):
-        raise RuntimeError("the button did not mend the face")
+        raise RuntimeError("the button did not repair the face")
 
 
 def idle(times):
@@ -247,7 +247,7 @@ def idle(times):
 def touch():
     """A change, which is checked unasked however slow this machine is."""
     from soft_body_format.operators import live_check
-    live_check.MOST_S = 1e6
+    live_check.MAX_CHECK_S = 1e6
     bpy.data.objects["Head"].data.update()
 
 
@@ -255,7 +255,7 @@ def expect_quiet():
     if CHECKS[-1] != CHECKS[-2] or CHECKS[-1] == 0:
         raise RuntimeError(f"a change is to be checked, and not again and again: {CHECKS}")
     from soft_body_format.operators import live_check
-    live_check.MOST_S = 0
+    live_check.MAX_CHECK_S = 0
 
 
 def add_follower():

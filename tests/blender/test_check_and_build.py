@@ -46,13 +46,13 @@ class Live(fixtures.SceneTest):
         """What Blender's main loop does after a change: tells of it, and calls the timer when its time has come."""
         act()
         bpy.context.view_layer.update()
-        waits = bpy.app.timers.is_registered(live_check.look)
+        waits = bpy.app.timers.is_registered(live_check.check_when_idle)
         if waits:
-            self.assertGreater(live_check.look(), 0)  # not while things change
-            live_check.Live.changed_at -= live_check.QUIET_S
-            self.assertIsNone(live_check.look())
-            bpy.app.timers.unregister(live_check.look)
-        live_check.Live.deaf_until = 0
+            self.assertGreater(live_check.check_when_idle(), 0)  # not while things change
+            live_check.Live.changed_at -= live_check.IDLE_S
+            self.assertIsNone(live_check.check_when_idle())
+            bpy.app.timers.unregister(live_check.check_when_idle)
+        live_check.Live.ignored_until = 0
         return waits, [one.code for one in self.scene.soft_body_format.findings]
 
     def flip(self):
@@ -72,7 +72,7 @@ class Live(fixtures.SceneTest):
         settings = self.scene.soft_body_format
         settings.checks_live = False
         self.assertFalse(self.change(self.flip)[0])
-        settings.checks_live, settings.check_time = True, 2 * live_check.MOST_S
+        settings.checks_live, settings.check_time = True, 2 * live_check.MAX_CHECK_S
         self.assertFalse(self.change(self.flip)[0])
 
 
@@ -87,6 +87,6 @@ class Build(fixtures.SceneTest):
         self.scene.unit_settings.scale_length = 0.1
         fixtures.ball("blob", 2.0, (5, 0, 0))
         bpy.ops.sbfmt.build()
-        places = structure._shown[self.scene.name].places("lattice")
+        places = structure._shown[self.scene.name].positions("lattice")
         self.assertAlmostEqual(float(places[:, 0].mean()), 5, delta=0.1)
         self.assertAlmostEqual(float(places[:, 2].max()), 2, delta=0.3)

@@ -103,7 +103,7 @@ class Scene(fixtures.SceneTest):
 
     def test_a_vertex_nowhere(self):
         fixtures.box("b").data.vertices[3].co.x = float("nan")
-        self.assertIn("no finite place", self.refuse(build=False))
+        self.assertIn("coordinates that are not finite", self.refuse(build=False))
         self.assertEqual([one.vertices for one in findings_of().errors], [[3]])
 
     def test_polygons_that_can_have_no_stiff_quads(self):

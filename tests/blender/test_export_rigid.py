@@ -180,8 +180,8 @@ class Surroundings(fixtures.SceneTest):
         fixtures.box("b")
         for kind, settings, said in (("FORCE", {"noise": 2, "shape": "LINE"}, "noise; the shape Line"),
                                      ("WIND", {"use_max_distance": True, "z_direction": "POSITIVE"}, "one side alone; the shape Plane"),
-                                     ("FORCE", {"use_min_distance": True, "falloff_type": "TUBE"}, "least distance; falloff as a tube"),
-                                     ("DRAG", {"linear_drag": 1}, "square of the speed"), ("VORTEX", {}, "stronger farther out"),
+                                     ("FORCE", {"use_min_distance": True, "falloff_type": "TUBE"}, "minimum distance; falloff as a tube"),
+                                     ("DRAG", {"linear_drag": 1}, "square of the speed"), ("VORTEX", {}, "its growth with distance"),
                                      ("WIND", {}, None)):
             bpy.ops.object.effector_add(type=kind)
             made = bpy.context.object

@@ -16,7 +16,7 @@ class Scene(fixtures.SceneTest):
         self.assertEqual(bpy.ops.import_scene.soft_body_format(filepath=self.path(first)), {"FINISHED"})
         self.scene = bpy.context.scene
         for collection in bpy.data.collections:
-            for name in (memory.READ, memory.UNTOUCHED):
+            for name in (memory.READ, memory.UNCHANGED):
                 if name in collection:
                     del collection[name]
         found = Findings()

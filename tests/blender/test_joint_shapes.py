@@ -33,7 +33,7 @@ class Shapes(fixtures.SceneTest):
     def test_swings_agree_with_the_measure_of_the_runtime(self):
         for y, z in ((0.3, -0.7), (1.2, 0.4), (-2.0, 1.5), (0, 0)):
             turn = Quaternion((0, y, z), math.hypot(y, z)) if y or z else Quaternion()
-            self.assert_near(joint_shapes.swung(y, z), turn @ Vector((1, 0, 0)), 1e-6)
+            self.assert_near(joint_shapes.swing_direction(y, z), turn @ Vector((1, 0, 0)), 1e-6)
             full = turn @ Quaternion((1, 0, 0), 0.6)
             found = joint_shapes.measure(full.w, full.x, full.y, full.z)
             self.assert_near((found["swing_y"], found["swing_z"], found["twist"]), (y, z, 0.6), 1e-5)

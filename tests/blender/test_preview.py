@@ -243,16 +243,16 @@ class Walks(PreviewTest):
         wide = 0.0
         for frame in range(2, 260):
             self.scene.frame_set(frame)
-            place, _ = session.place()
+            position, _ = session.ground_position()
             path = session.walker.path
-            gaps = [float(numpy.linalg.norm(path.at(along) - place)) for along in numpy.linspace(0, path.length, 200)]
+            gaps = [float(numpy.linalg.norm(path.at(along) - position)) for along in numpy.linspace(0, path.length, 200)]
             wide = max(wide, min(gaps))
-        end, _ = session.place()
+        end, _ = session.ground_position()
         self.assertLess(float(numpy.linalg.norm(end - (2, 2))), 0.3)
         self.assertLess(wide, 0.3)
         self.assertGreater(session.character.distance, 2.5)
         self.scene.frame_set(1)
-        self.assertLess(float(numpy.linalg.norm(session.place()[0])), 0.05)
+        self.assertLess(float(numpy.linalg.norm(session.ground_position()[0])), 0.05)
 
     def test_without_a_curve_it_says_so_and_stands(self):
         self.load("lizard.sbf")

@@ -129,7 +129,7 @@ class ProposedGait(fixtures.SceneTest):
         rig.data.bones["shin.L"].soft_body_format.hangs_on = "foot.L"  # a circle
         rig.data.bones["foot.R"].soft_body_format.hangs_on = "gone"
         bpy.ops.sbfmt.check()
-        told = [one.bone_name for one in self.scene.soft_body_format.findings if "to hang on" in one.message]
+        told = [one.bone_name for one in self.scene.soft_body_format.findings if "under Hangs on" in one.message]
         self.assertEqual(told, ["shin.L", "foot.L", "foot.R"])
 
     def test_bones_are_enough(self):
@@ -156,7 +156,7 @@ class ProposedGait(fixtures.SceneTest):
         settings = self.scene.soft_body_format
         index, found = next((index, one) for index, one in enumerate(settings.findings) if one.code == "GAIT_GROUND")
         self.assertIn("above the ground", found.message)
-        self.assertEqual(bpy.ops.sbfmt.mend(index=index), {"FINISHED"})
+        self.assertEqual(bpy.ops.sbfmt.repair(index=index), {"FINISHED"})
         self.assertFalse(any(one.code == "GAIT_GROUND" for one in settings.findings))
         written = self.export(build=False)
         self.assertAlmostEqual(min(leg.home[1] - leg.sole for leg in written.gaits[0].legs), 0, delta=1e-5)

@@ -9,7 +9,7 @@ import bpy
 import fixtures
 import numpy
 from soft_body_format import settings
-from soft_body_format.mending import IN_SCENE
+from soft_body_format.repairs import IN_SCENE
 from soft_body_format.overlay import joints, structure
 from soft_body_format.preview import baked, handlers
 from soft_body_format.to_document.roles import shown_role
@@ -130,7 +130,7 @@ class Walkthrough(fixtures.SceneTest):
         bpy.ops.sbfmt.check()
         findings = scene.soft_body_format.findings
         index = next(i for i, one in enumerate(findings) if one.code == "SURFACE_WINDING")
-        self.assertEqual(bpy.ops.sbfmt.mend(index=index), {"FINISHED"})
+        self.assertEqual(bpy.ops.sbfmt.repair(index=index), {"FINISHED"})
         self.assertNotIn("SURFACE_WINDING", [one.code for one in findings])
         bpy.ops.curve.primitive_bezier_curve_add(location=(1, 0, 0))  # 8
         preview = scene.soft_body_format.preview

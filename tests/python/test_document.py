@@ -77,7 +77,7 @@ class Documents(unittest.TestCase):
     def test_lists_take_any_sequence(self):
         body = Record("soft_body", id="a", interior=[(0, 1, 2), (3, 4, 5)])
         self.assertEqual(body.interior, array("f", range(6)))
-        with self.assertRaisesRegex(ValueError, "no multiple of 3"):
+        with self.assertRaisesRegex(ValueError, "not a multiple of 3"):
             body.interior = [1, 2]
 
     def test_mistakes_are_named(self):

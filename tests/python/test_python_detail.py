@@ -55,7 +55,7 @@ class Detail(unittest.TestCase):
             mirrored = world.add(self.model, position=(1, 0, -1.5))
             behind.drive(forward=0.3)  # who stands asleep costs nothing as it is
             detail.show(mirrored, "always")
-            detail.look(world, [detail.view(eye=(0, 0.5, 0), forward=(0, 0, 1))])
+            detail.set_views(world, [detail.view(eye=(0, 0.5, 0), forward=(0, 0, 1))])
             for _ in range(30):
                 world.step(TICK)
             self.assertEqual([kinds[detail.detail_level(one)] for one in (near, far, behind, mirrored)], ["soft", "bones", "away", "soft"])
@@ -79,7 +79,7 @@ class Detail(unittest.TestCase):
         with runtime.World(runtime.flat(0.0), capacity=20) as world:
             lizards = [world.add(self.model, position=(x - 2, 0, 3)) for x in range(5)]
             detail.choose(world, error_px=0.01)
-            detail.look(world, [detail.view(eye=(0, 0.5, 0), forward=(0, 0, 1))])
+            detail.set_views(world, [detail.view(eye=(0, 0.5, 0), forward=(0, 0, 1))])
             world.step(TICK)
             free = detail.visits(world)
             self.assertEqual({detail.detail_level(one) for one in lizards}, {0})
@@ -96,7 +96,7 @@ class Detail(unittest.TestCase):
             with self.assertRaisesRegex(TypeError, "error_px"):
                 detail.choose(world, pixels=1)
             with self.assertRaisesRegex(ValueError, "at most 4"):
-                detail.look(world, 5 * [detail.view((0, 0, 0), (0, 0, 1))])
+                detail.set_views(world, 5 * [detail.view((0, 0, 0), (0, 0, 1))])
             with self.assertRaisesRegex(ValueError, "by_views"):
                 detail.show(lizard, "sometimes")
 

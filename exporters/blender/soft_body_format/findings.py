@@ -1,4 +1,4 @@
-"""What an export, a check or an import has to say: what is wrong, where in the scene, and what to do about it."""
+"""Messages of an export, a check or an import: what is wrong, where in the scene, and what to do about it."""
 
 from dataclasses import dataclass, field
 
@@ -7,8 +7,8 @@ ERROR, WARNING, INFO = "ERROR", "WARNING", "INFO"
 
 @dataclass
 class Finding:
-    """One message. What it is about is named, so that a click can select it: names of objects and bones stay true when
-    Blender undoes, pointers do not."""
+    """One message. It names its object and bone, so that a click can select them. Names stay valid when Blender undoes; pointers
+    do not."""
 
     severity: str
     message: str
@@ -18,8 +18,8 @@ class Finding:
     code: str = ""
 
     def __str__(self):
-        place = self.object_name + (f", bone {self.bone_name}" if self.bone_name else "")
-        return f"{place}: {self.message}" if place else self.message
+        location = self.object_name + (f", bone {self.bone_name}" if self.bone_name else "")
+        return f"{location}: {self.message}" if location else self.message
 
 
 class Findings(list):
@@ -38,9 +38,9 @@ class Findings(list):
     def errors(self):
         return [one for one in self if one.severity == ERROR]
 
-    def show(self, operator, most=8):
-        """In Blender's own way: the status bar, the info editor, a pop-up for errors."""
-        for one in self[:most]:
+    def show(self, operator, max_count=8):
+        """Reports the messages as Blender does: status bar, info editor, and a pop-up for errors."""
+        for one in self[:max_count]:
             operator.report({one.severity}, str(one))
-        if len(self) > most:
-            operator.report({"INFO"}, f"{len(self) - most} more messages stand in Scene > Soft body format > Check")
+        if len(self) > max_count:
+            operator.report({"INFO"}, f"{len(self) - max_count} more messages are in Scene > Soft body format > Check")

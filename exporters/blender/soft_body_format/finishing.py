@@ -1,4 +1,4 @@
-"""From source parts to a file: by the library, which builds, checks and packs; without it as XML in plain Python."""
+"""Writes a document to a file. The library builds, checks and packs it; without the library plain Python writes XML."""
 
 import os
 import stat
@@ -13,7 +13,7 @@ def has_library():
 
 
 def refusal(path):
-    """Why nothing can be written there, or None: said before any work is done."""
+    """Why nothing can be written to the path, or None. The export asks this before it does any work."""
     folder = os.path.dirname(os.path.abspath(path))
     if not os.path.isdir(folder):
         return f"the folder {folder} does not exist: make it, or choose another"
@@ -26,10 +26,10 @@ def refusal(path):
     return None
 
 
-def finish(document, path, build, findings, locator=None, files=None, mends=False):
-    """Writes the file whole or not at all, and with it `files`, which it names; says whether it is there. `build` is what to
-    build it with, or None. What the library finds joins the findings. `mends`: what has one right answer
-    is mended."""
+def finish(document, path, build, findings, locator=None, files=None, repair_files=False):
+    """Writes the file and `files`, which it names: all of them or none. Returns whether the file was written. `build` holds the
+    arguments of a build, or is None. Adds the library's messages to the findings. `repair_files`: repairs what has one right
+    answer."""
     refused = refusal(path)
     if refused:
         findings.error(refused)
@@ -37,7 +37,7 @@ def finish(document, path, build, findings, locator=None, files=None, mends=Fals
     try:
         with files_beside(os.path.dirname(os.path.abspath(path)), files or {}) as beside:
             if has_library():
-                written = with_library(document, path, build, findings, locator, mends)
+                written = with_library(document, path, build, findings, locator, repair_files)
             else:
                 written = without_library(document, path, findings)
             if written:
@@ -50,17 +50,17 @@ def finish(document, path, build, findings, locator=None, files=None, mends=Fals
     return False
 
 
-def to_asset(document, mended=None):
-    """The library's own asset of a document. `mended` hears what is mended in it; None: nothing is."""
-    if mended is None:
+def to_asset(document, repaired=None):
+    """The library's asset of a document. `repaired` is called with each repair; None: nothing is repaired."""
+    if repaired is None:
         return sbfmt.load_document(document)
-    with sbfmt.load_document(document, mendable=True) as faulty:
-        return faulty.fix(report=mended)
+    with sbfmt.load_document(document, mendable=True) as unrepaired:
+        return unrepaired.fix(report=repaired)
 
 
-def with_library(document, path, build, findings, locator, mends):
+def with_library(document, path, build, findings, locator, repair_files):
     """A file with errors is not written."""
-    with to_asset(document, mender(findings, locator) if mends else None) as source:
+    with to_asset(document, repair_reporter(findings, locator) if repair_files else None) as source:
         asset = source.build(report=lambda found: add(found, findings, locator), **build) if build is not None else source
         try:
             check(asset, os.path.dirname(path), findings, locator)
@@ -71,11 +71,11 @@ def with_library(document, path, build, findings, locator, mends):
     return not findings.errors
 
 
-def mender(findings, locator):
-    """Hears what is mended in a file."""
-    def mended(found):
-        findings.info(f"mended in the file: {found.message}", code=found.code, **(locator.locate(found) if locator else {}))
-    return mended
+def repair_reporter(findings, locator):
+    """A function that adds each repair of a file to the findings."""
+    def repaired(found):
+        findings.info(f"repaired in the file: {found.message}", code=found.code, **(locator.locate(found) if locator else {}))
+    return repaired
 
 
 def check(asset, folder, findings, locator):
@@ -96,7 +96,7 @@ def without_library(document, path, findings):
     return True
 
 
-# What the library says for whoever types commands, in words of Blender.
+# Command line terms in the library's messages, and Blender's terms for them.
 IN_BLENDER = ((", for example --material flesh", ", in Scene > Soft body format > What a build makes"),
               ("(--cell, --elements)", "(Scene > Soft body format > What a build makes)"),
               ("(--elements, --cell)", "(Scene > Soft body format > What a build makes)"),
@@ -111,6 +111,6 @@ def in_blender(message):
 
 
 def add(found, findings, locator=None):
-    """A diagnostic of the library as a finding, with what it is about."""
-    tell = {"error": findings.error, "warning": findings.warning}.get(found.severity, findings.info)
-    tell(in_blender(found.message), code=found.code, **(locator.locate(found) if locator else {}))
+    """Adds a diagnostic of the library to the findings, with its object and bone."""
+    report_unsupported = {"error": findings.error, "warning": findings.warning}.get(found.severity, findings.info)
+    report_unsupported(in_blender(found.message), code=found.code, **(locator.locate(found) if locator else {}))

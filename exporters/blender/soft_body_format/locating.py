@@ -1,4 +1,4 @@
-"""From where the library says something is wrong to what lies there in the scene."""
+"""Finds the object, bone and vertices that a diagnostic of the library refers to."""
 
 import re
 
@@ -6,14 +6,14 @@ COLLECTIONS = {"soft_body": "soft_bodies", "render_mesh": "render_meshes"}
 
 
 class Locator:
-    """Knows the document that was looked at, and whose object or bone each id was given to."""
+    """Maps ids of a checked document to objects and bones of the scene."""
 
     def __init__(self, document, identifiers):
         self.document = document
         self.owners = {identity: (kind, key) for (kind, key), identity in identifiers.given.items()}
 
     def locate(self, diagnostic):
-        """{"object_name", "bone_name", "vertices"}: as much of it as is known."""
+        """A dict of "object_name", "bone_name" and "vertices"; unknown ones are left out."""
         match = re.match(r"/sbf/(?:skeleton/|rigid_bodies/|joints/)?(\w+)\[(\d+)\]", diagnostic.path)
         if not match:
             return {}
@@ -33,7 +33,7 @@ class Locator:
 
     @staticmethod
     def vertices(record, diagnostic):
-        """Numbers of the vertices at fault: the one of a list's item, or those of a polygon."""
+        """Indices of the vertices at fault: the vertex of a list's item, or the vertices of a polygon."""
         index, mesh = diagnostic.index, record.surface if record.element.name == "soft_body" else record.mesh
         if index < 0:
             return []

@@ -1,4 +1,4 @@
-"""Files that a bundle names, written with it: all of them or none."""
+"""Writes the files that a bundle names together with it: all of them or none."""
 
 import contextlib
 import os
@@ -7,7 +7,7 @@ from .sbfmt.document import save_whole
 
 
 class SideFiles:
-    """Files beside a bundle, and what stood in their places before."""
+    """Files beside a bundle, and the files they replace."""
 
     def __init__(self, folder):
         self.folder, self.before, self.made_folders, self.kept = folder, {}, [], False
@@ -28,7 +28,7 @@ class SideFiles:
             self.made_folders.append(folder)
 
     def keep(self):
-        """From here on they stay."""
+        """Keeps the files when the `with` ends."""
         self.kept = True
 
     def take_back(self):
@@ -53,7 +53,7 @@ def read(path):
 
 @contextlib.contextmanager
 def files_beside(folder, files):
-    """Writes them for the time of the `with`; they stay where `keep` was called in it."""
+    """Writes the files for the time of the `with`. If `keep` was not called in it, the old files return at the end."""
     written = SideFiles(folder)
     try:
         written.write(files)

@@ -1,11 +1,11 @@
-"""Blender's space and the format's: Z-up in scene units here, metres and Y-up there. Ahead is +Z there; here the scene says what is
-(-Y, as seen in front view, where it says nothing), and how high the ground is."""
+"""Converts between Blender's space (Z up, scene units) and the format's (Y up, metres). A character faces +Z in the format. The
+scene's settings give the direction it faces in Blender (default -Y, as in front view) and the height of the ground."""
 
 import numpy
 from mathutils import Matrix, Quaternion, Vector
 
-WAYS = ("-Y", "X", "Y", "-X")  # ahead, by quarter turns about the vertical
-# Asset from Blender, of what looks along -Y: (x, y, z) becomes (x, z, -y).
+DIRECTIONS = ("-Y", "X", "Y", "-X")  # forward directions, a quarter turn about the vertical apart
+# From Blender to asset space for a character that faces -Y: (x, y, z) becomes (x, z, -y).
 UPRIGHT = Matrix(((1, 0, 0), (0, 0, 1), (0, -1, 0)))
 BACK = tuple(Matrix(rows) for rows in (((1, 0, 0), (0, 1, 0), (0, 0, 1)), ((0, 0, -1), (0, 1, 0), (1, 0, 0)),
                                        ((-1, 0, 0), (0, 1, 0), (0, 0, -1)), ((0, 0, 1), (0, 1, 0), (-1, 0, 0))))
@@ -17,12 +17,12 @@ def frame_rate(scene):
 
 
 class Space:
-    """Maps a scene's world to asset space, and back. `unit_m` is the length of a scene unit in metres, `way` where ahead is, `ground`
-    how high the ground is, in scene units."""
+    """Maps a scene's world to asset space and back. `unit_m` is the length of a scene unit in metres, `ahead` the forward direction,
+    `ground` the height of the ground in scene units."""
 
-    def __init__(self, unit_m=1.0, way="-Y", ground=0.0):
-        self.unit_m, self.way, self.ground = unit_m, way, ground
-        self.turn = BACK[WAYS.index(way)] @ UPRIGHT
+    def __init__(self, unit_m=1.0, ahead="-Y", ground=0.0):
+        self.unit_m, self.ahead, self.ground = unit_m, ahead, ground
+        self.turn = BACK[DIRECTIONS.index(ahead)] @ UPRIGHT
         self.quaternion = self.turn.to_quaternion()
         self.lift = Vector((0, 0, -ground))
 
@@ -33,11 +33,11 @@ class Space:
 
     @property
     def placement(self):
-        """What an artist says of it."""
-        return [WAYS.index(self.way), self.ground]
+        """The forward direction and the ground height, as the scene's panel states them."""
+        return [DIRECTIONS.index(self.ahead), self.ground]
 
     def matrix(self, world):
-        """From an object's own space to asset space: 4x4, lengths in metres."""
+        """The 4x4 matrix from an object's own space to asset space; lengths in metres."""
         return Matrix.Scale(self.unit_m, 4) @ self.turn.to_4x4() @ Matrix.Translation(self.lift) @ world
 
     def points(self, points, world):
@@ -46,12 +46,12 @@ class Space:
         return (points.astype(numpy.float64) @ matrix[:3, :3].T + matrix[:3, 3]).astype(numpy.float32)
 
     def offsets(self, offsets, world):
-        """Differences of points: turned and scaled, not moved."""
+        """Differences of points: rotated and scaled, not translated."""
         matrix = numpy.array(self.matrix(world), dtype=numpy.float64)
         return (offsets.astype(numpy.float64) @ matrix[:3, :3].T).astype(numpy.float32)
 
     def normals(self, normals, world):
-        """Unit normals, by the inverse transpose; zero ones point up."""
+        """Unit normals, transformed by the inverse transpose. Zero normals become upward ones."""
         matrix = numpy.array(self.matrix(world), dtype=numpy.float64)[:3, :3]
         turned = normals.astype(numpy.float64) @ numpy.linalg.inv(matrix)
         lengths = numpy.linalg.norm(turned, axis=1, keepdims=True)
@@ -67,7 +67,7 @@ class Space:
         return tuple(self.turn @ vector)
 
     def rotation(self, rotation):
-        """A rotation from some frame to the world, as x, y, z, w from that frame to asset space."""
+        """Converts a rotation from a frame to the world into one from that frame to asset space: x, y, z, w."""
         turned = (self.quaternion @ rotation).normalized()
         return (turned.x, turned.y, turned.z, turned.w)
 

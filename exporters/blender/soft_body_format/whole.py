@@ -1,4 +1,4 @@
-"""The whole document that a scene stands for: what the scene says, and what the file it came from said beside it."""
+"""Writes the complete document of a scene: the scene's own data, merged with the file that it was imported from."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from .to_document import SceneWriter
 class Whole:
     document: object
     writer: SceneWriter
-    changed: bool  # against the file that it was imported from; true where it is from none
+    changed: bool  # whether it differs from the file it was imported from; true without an import
 
     @property
     def locator(self):
@@ -19,8 +19,8 @@ class Whole:
 
 
 def write_whole(context, options, findings):
-    """What is wrong with the scene joins the findings."""
+    """Returns the document of the scene. Adds the scene's faults to the findings."""
     writer = SceneWriter(context, options, findings)
-    now, known = writer.write(), memory.recall(writer.objects, writer.space, findings)
+    now, known = writer.write(), memory.find_import(writer.objects, writer.space, findings)
     document = memory.merge_documents(*known, now) if known else now
     return Whole(document, writer, not known or document != known[0])

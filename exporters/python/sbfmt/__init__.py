@@ -2,15 +2,15 @@
 
     import sbfmt
     asset = sbfmt.convert("lizard.obj", rig="lizard.glb")
-    asset = asset.build(progress=lambda name, share: print(name, share) or True)
+    asset = asset.build(progress=lambda name, share: print(name, fraction) or True)
     print(asset.info()["sections"], asset.validate().valid)
     asset.save("lizard.sbfz")
 
-Only Python's standard library is needed, and libsbfmt-interchange, built shared (-DBUILD_SHARED_LIBS=ON). It is looked for
-where SBFMT_LIBRARY says (the file, or its folder), beside this package, and where the system keeps libraries.
+The package needs only Python's standard library and libsbfmt-interchange, built shared (-DBUILD_SHARED_LIBS=ON). It looks for the
+library at SBFMT_LIBRARY (the file, or its folder), beside this package, and in the system's library folders.
 
-Functions raise `Error`, which has `code`, `path`, `file` and `line`. Assets are never changed: `build` gives a new one.
-Different threads may use different assets, and read one asset together.
+Functions raise `Error`, which has `code`, `path`, `file` and `line`. Assets never change: `build` returns a new one.
+Different threads may use different assets, and may read the same asset.
 """
 
 from .asset import Asset, Validation, convert, load, load_document, propose_gait, stand

@@ -1,4 +1,4 @@
-"""Assets: loaded, converted, built, validated, saved."""
+"""Assets: load, convert, build, validate, save."""
 
 import ctypes
 import os
@@ -17,7 +17,7 @@ LIMITS = ("none", "human", "quadruped", "reptile")
 
 
 class Validation:
-    """Findings of a validation: `valid` where no error is among `findings`, a list of Diagnostic."""
+    """Result of a validation. `findings` is a list of Diagnostic; `valid` is True if none of them is an error."""
 
     def __init__(self, result, findings):
         self.errors, self.warnings, self.infos = result.errors, result.warnings, result.infos
@@ -30,7 +30,7 @@ def path_bytes(path):
 
 
 class Asset:
-    """An asset in memory. It is made by `load`, `convert` and `build`, and never changed."""
+    """An asset in memory. `load`, `convert` and `build` make assets; an asset never changes."""
 
     def __init__(self, pointer):
         self._pointer = pointer
@@ -43,7 +43,7 @@ class Asset:
         self.close()
 
     def close(self):
-        """Frees the memory now rather than when Python finds time for it."""
+        """Frees the memory now, without waiting for Python's garbage collection."""
         self._finalizer()
         self._pointer = None
 
@@ -55,8 +55,8 @@ class Asset:
         return self._pointer
 
     def save(self, path, store=False, level=0):
-        """Writes the file: .sbf, .sbfz, or .glb, which any viewer of glTF shows. A failure leaves the old one whole. `store`: without
-        compression; `level` 1 to 9 of zlib, 0: 6. A .glb embeds images that lie beside it."""
+        """Writes a file: .sbf, .sbfz, or .glb, which any glTF viewer shows. A failure leaves the old file unchanged. `store`: no
+        compression. `level`: 1 to 9 of zlib, 0: 6. A .glb embeds images from its folder."""
         error = DiagnosticStruct()
         if path_bytes(path).endswith(b".glb"):
             options = ExportOptions(struct_size=ctypes.sizeof(ExportOptions), folder=os.path.dirname(path_bytes(path)) or b".",
@@ -76,8 +76,8 @@ class Asset:
             library().sbf_buffer_free(ctypes.byref(buffer))
 
     def export(self, path, report=None, render_level=0, folder=None):
-        """Writes another program's form, named by the ending (.glb, .obj, .tet, .xml); `report` hears what it has no place for.
-        `render_level` of each mesh: 0 the full one. `folder`: where images lie that the asset names by path, for .glb."""
+        """Writes another program's format, chosen by the extension (.glb, .obj, .tet, .xml). `report` is called with each part that
+        the format cannot hold. `render_level` of each mesh, 0: full. `folder`: folder of images that the asset names, for .glb."""
         callbacks, error = Callbacks(report), DiagnosticStruct()
         options = ExportOptions(ctypes.sizeof(ExportOptions), None, callbacks.report, None, render_level,
                                 path_bytes(folder))
@@ -87,10 +87,10 @@ class Asset:
     def build(self, progress=None, report=None, interior="automatic", flexion=True, embeddings=True, hulls=True, cell=0.0,
               elements=0, sections=True, overlap=0.0, calibration=True, levels=0, error=0.0,
               render_levels=0, render_error=0.0):
-        """A new asset with the derived parts made anew. `progress(pass, share)` may return False to cancel.
+        """A new asset with new derived parts. `progress(step, fraction)` may return False to cancel.
 
-        Lengths are in metres: `cell` of lattices, `overlap` of sections, `error` that a lattice may have, and
-        `render_error` a render level. What 0 stands for and what each means is said in build.h."""
+        Lengths are in metres: `cell` of lattices, `overlap` of sections, largest `error` of a lattice, and
+        largest `render_error` of a render level. build.h describes each option and the meaning of 0."""
         if interior not in INTERIORS:
             raise ValueError(f"interior is one of {', '.join(INTERIORS)}, not {interior!r}")
         callbacks, found, built = Callbacks(report, progress), DiagnosticStruct(), ctypes.c_void_p()
@@ -106,7 +106,7 @@ class Asset:
         return made
 
     def validate(self, folder=None):
-        """Applies the rules; `folder` is where the file lies, to look for images beside it."""
+        """Checks the asset against the format's rules. `folder` is the file's folder, where images are looked for."""
         findings = []
         callbacks, error, result = Callbacks(findings.append), DiagnosticStruct(), ValidateResult()
         options = ValidateOptions(ctypes.sizeof(ValidateOptions), None, 0, callbacks.report, None, path_bytes(folder))
@@ -115,8 +115,8 @@ class Asset:
         return Validation(result, findings)
 
     def fix(self, report=None, build=True):
-        """A new asset in which everything is repaired that has one right answer; `report` hears what was. It may be loaded with
-        `mendable`. Without `build` derived parts that are stale stay."""
+        """A new asset in which every fault with one right answer is repaired. `report` is called with each repair. This asset may be
+        loaded with `mendable`. Without `build` stale derived parts stay."""
         callbacks, found, made = Callbacks(report), DiagnosticStruct(), ctypes.c_void_p()
         options = FixOptions(ctypes.sizeof(FixOptions), None, not build, callbacks.report, None)
         status = library().sbf_fix(self.pointer, ctypes.byref(options), ctypes.byref(made), ctypes.byref(FixResult()),
@@ -126,26 +126,26 @@ class Asset:
         return fixed
 
     def measure(self):
-        """{"mass": kg, "bounds": {"min", "max"} in metres, or None where nothing has a place}."""
+        """{"mass": kg, "bounds": {"min", "max"} in metres, or None if the asset has no points}."""
         found = AssetMeasures()
         library().sbf_asset_measure(self.pointer, ctypes.byref(found))
         bounds = {"min": list(found.low), "max": list(found.high)} if found.bounded else None
         return {"mass": found.mass, "bounds": bounds}
 
     def info(self):
-        """What the asset holds, as a dict; see `description`."""
+        """The asset's contents as a dict; see `description`."""
         return {**describe(ElementTree.fromstring(self.to_xml())), **self.measure()}
 
     def equals(self, other):
-        """None where both say the same, else the path of the first difference."""
+        """None if both are equal, else the path of the first difference."""
         path = ctypes.create_string_buffer(512)
         same = library().sbf_asset_equal(self.pointer, other.pointer, path, len(path))
         return None if same else path.value.decode()
 
 
 def load(path, check_crc=True, extensions=(), mendable=False):
-    """Reads an .sbf, .sbfz or .glb file; `extensions` names those that the caller understands. With `mendable` what `fix` may mend is let
-    pass; nothing but `fix` may then be asked of the asset."""
+    """Reads an .sbf, .sbfz or .glb file. `extensions` lists the ones that the caller understands. `mendable` accepts faults that `fix`
+    can repair; then only `fix` may be called on the asset."""
     names = (ctypes.c_char_p * len(extensions))(*(name.encode() for name in extensions))
     options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), check_crc=check_crc, extension_count=len(extensions),
                           extensions=ctypes.cast(names, ctypes.POINTER(ctypes.c_char_p)), copy_file=True,
@@ -156,7 +156,7 @@ def load(path, check_crc=True, extensions=(), mendable=False):
 
 
 def given(items):
-    """A list of a document as C has it. The document must live as long."""
+    """A list of a document as a C struct. The document must outlive it."""
     if isinstance(items, bytes):
         return GivenList(ctypes.cast(ctypes.c_char_p(items), ctypes.c_void_p), len(items))
     address, count = items.buffer_info()
@@ -164,7 +164,7 @@ def given(items):
 
 
 def load_document(record, mendable=False):
-    """The asset of a `document.Record`, checked as a file's would be; `mendable` as with `load`."""
+    """The asset of a `document.Record`, checked like a file; `mendable` as in `load`."""
     text, lists = to_parts(record)
     options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), mendable=mendable, given_list_count=len(lists),
                           given_lists=(GivenList * len(lists))(*map(given, lists)))
@@ -174,17 +174,16 @@ def load_document(record, mendable=False):
 
 
 class Stance:
-    """How a character stands: `quarter_turns` about +Y away from looking along +Z (1: along +X), `ground` its lowest foot's y and
-    `height` what its bones hold reaches above its lowest point, both in metres; `hangs_on`, {bone id: bone id}, of bones that ought
-    to hang on another."""
+    """How a character stands. `quarter_turns` about +Y from facing +Z (1: facing +X). `ground`: y of its lowest foot, in metres.
+    `height` above its lowest point, in metres. `hangs_on`: {bone id: bone id} of bones that need another parent."""
 
     def __init__(self, found, hangs_on):
         self.quarter_turns, self.ground, self.height, self.hangs_on = found.quarter_turns, found.ground_m, found.height_m, hangs_on
 
 
 def stand(record):
-    """The Stance of a `document.Record`, as `propose_gait` wants it: no turns, ground 0, no bone to be hung elsewhere. Where some
-    are, hang them there and ask again."""
+    """The Stance of a `document.Record`. `propose_gait` needs no turns, ground 0 and no bones that need another parent. If there are
+    such bones, change their parents and call this again."""
     found, error = ConvertStance(struct_size=ctypes.sizeof(ConvertStance)), DiagnosticStruct()
     hangs_on = (ctypes.c_int32 * len(record.bones))(*[-1] * len(record.bones))
     with load_document(record) as asset:
@@ -193,8 +192,8 @@ def stand(record):
 
 
 def propose_gait(record, report=None):
-    """A `document.Record` with a gait proposed for its rig, as `convert` proposes one; without gait where the rig has no legs, of
-    which `report` then hears. One that has a gait or chains comes back as it is."""
+    """A `document.Record` with a gait proposed for its rig, as `convert` does. A rig without legs gets no gait, and `report` is
+    called. A record with a gait or chains is returned unchanged."""
     callbacks, error = Callbacks(report), DiagnosticStruct()
     with load_document(record) as asset:
         options = ConvertOptions(struct_size=ctypes.sizeof(ConvertOptions), report=callbacks.report)
@@ -207,12 +206,12 @@ def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=No
             goal_stiffness=0.0, limits="none", keep_modulus=False, holds=None, attachments=None):
     """Reads another program's file into an asset of source parts; `build` makes the rest.
 
-    `pins` is a dict from vertex groups or bones with weights to the bone that holds them, "" for the world, None for
-    the bone of that name. `goals` are the least and the largest weight, `goal_stiffness` is in N/m at weight 1; 0: by the body.
-    `limits` are proposed for joints that have none: none, human, quadruped or reptile.
-    `keep_modulus` leaves bodies that nothing holds at the usual modulus, where it would not bear their weight.
-    `holds` is like `pins`, for what sections cut from a skin hold; None is each section's own bone.
-    `attachments` is a dict from soft bodies to the object or bone whose hull holds what of them lies inside."""
+    `pins` is a dict from vertex groups or bones with weights to the bone they are pinned to; "" is the world, None the bone of
+    that name. `goals` are the minimum and maximum weight. `goal_stiffness` is in N/m at weight 1; 0: from the body.
+    `limits` are proposed for joints without limits: none, human, quadruped or reptile.
+    `keep_modulus` keeps the usual modulus of bodies without pins, even if it is too soft for their weight.
+    `holds` is like `pins`, for sections cut from a skin; None is each section's own bone.
+    `attachments` is a dict from soft bodies to an object or bone. Points inside its hull are attached to it."""
     if limits not in LIMITS:
         raise ValueError(f"limits are {', '.join(LIMITS)}, not {limits!r}")
     if up not in (None, "y", "z"):

@@ -1,8 +1,8 @@
-"""An asset's canonical XML in a few figures, under the names of `sbfmt info --format json`."""
+"""Summarizes an asset's canonical XML in a dict with the names of `sbfmt info --format json`."""
 
 
 def words(element, name):
-    """The numbers of a list, as text; none where it is left out."""
+    """The numbers of a list, as text; an empty list if it is left out."""
     found = element.find(name) if element is not None else None
     return found.text.split() if found is not None and found.text else []
 
@@ -20,8 +20,8 @@ def section(body):
     surface = body.find("polygon_mesh")
     counts = mesh_counts(surface)
     springs = level is not None and level.get("model", "springs") == "springs"
-    places = words(level, "new_from_old")[:counts["vertices"]] if springs else []
-    of_surface = sum(place != "4294967295" for place in places) if places else counts["vertices"]
+    surface_indices = words(level, "new_from_old")[:counts["vertices"]] if springs else []
+    of_surface = sum(index != "4294967295" for index in surface_indices) if surface_indices else counts["vertices"]
     interior = (len(words(level, "positions")) // 3 - of_surface if springs else len(words(body, "interior")) // 3)
     lattice = level.find("tetrahedron_mesh") if level is not None else None
     return {"id": body.get("id"), "name": body.get("name", ""), "bone": body.get("bone"), **counts,
@@ -30,7 +30,7 @@ def section(body):
 
 
 def describe(root):
-    """The figures, of the root element."""
+    """The summary of the root element."""
     bodies = root.findall("soft_body")
     springs = {"structural": 0, "shear": 0, "flexion": 0, "internal": 0, "cross_body": 0}
     for body in bodies:

@@ -1,11 +1,11 @@
-"""Levels of detail while the runtime runs, as sbrun/detail.h has them.
+"""Levels of detail in the runtime: the functions of sbrun/detail.h.
 
     from sbfmt import detail, runtime
     model = runtime.Model(asset, detail_levels=True)
     with runtime.World(runtime.flat(0.0), capacity=200) as world:
         detail.choose(world, error_px=0.5, budget_us=4000)
         lizards = [world.add(model, position=(2 * i, 0, 0), detail_level=len(detail.detail_levels(model)) - 2) for i in range(200)]
-        detail.look(world, [detail.view(eye=(0, 1.7, -4), forward=(0, -0.1, 1))])
+        detail.set_views(world, [detail.view(eye=(0, 1.7, -4), forward=(0, -0.1, 1))])
         world.step(1 / 60)
         print(detail.visits(world), [detail.detail_level(lizard) for lizard in lizards])
 
@@ -24,13 +24,13 @@ from .runtime import C, ERROR, Double3, Vec3, W, runtime_library
 KINDS = ("soft", "jiggle", "bones", "away")
 SHOWN = ("by_views", "always", "never")
 CHOSEN = 0xFFFFFFFF  # of set_detail_level: the world chooses
-MOST_VIEWS = 4
+MAX_VIEWS = 4
 
-# What a character is on a detail level: one of KINDS, the level of soft ones, metres that it may be off, visits of elements a tick, bytes that it holds.
+# A detail level: one of KINDS, level of soft bodies, error in metres, element visits per tick, memory in bytes.
 DetailLevel = collections.namedtuple("DetailLevel", "kind level error_m visits bytes")
 
 
-class RungStruct(Structure):
+class DetailLevelStruct(Structure):
     _fields_ = [("kind", c_int), ("level", c_uint32), ("error_m", c_float), ("visits", c_float), ("bytes", c_size_t)]
 
 
@@ -43,11 +43,11 @@ class View(Structure):
     _fields_ = [("eye", Double3), ("forward", Vec3), ("height_rad", c_float), ("width_ratio", c_float), ("lines", c_float)]
 
 
-# Tests look that they are of the headers' size.
-STRUCTS = {"sbr_detail_level": RungStruct, "sbr_detail_definition": Definition, "sbr_view": View}
+# Tests compare their sizes with the headers.
+STRUCTS = {"sbr_detail_level": DetailLevelStruct, "sbr_detail_definition": Definition, "sbr_view": View}
 
 CALLS = {
-    "sbr_model_get_detail_levels": (c_uint32, [c_void_p, POINTER(RungStruct), c_uint32]),
+    "sbr_model_get_detail_levels": (c_uint32, [c_void_p, POINTER(DetailLevelStruct), c_uint32]),
     "sbr_character_get_detail_level": (c_uint32, [W, C]),
     "sbr_character_set_detail_level": (None, [W, C, c_uint32]),
     "sbr_character_get_detail_fade": (c_float, [W, C]),
@@ -75,30 +75,30 @@ def _of(name, character, *arguments):
 
 
 def detail_levels(model):
-    """Levels of detail of a model, finest first; one alone where it was made without `detail_levels`."""
+    """Detail levels of a model, finest first; only one if it was made without `detail_levels`."""
     count = _library().sbr_model_get_detail_levels(model.pointer, None, 0)
-    found = (RungStruct * count)()
+    found = (DetailLevelStruct * count)()
     _library().sbr_model_get_detail_levels(model.pointer, found, count)
     return [DetailLevel(KINDS[one.kind], one.level, one.error_m, one.visits, one.bytes) for one in found]
 
 
 def detail_level(character):
-    """The detail level that the character is on, or begins to go over to in the next tick; from 0."""
+    """The character's detail level, or the one it starts to change to in the next tick; from 0."""
     return _of("sbr_character_get_detail_level", character)
 
 
 def set_detail_level(character, number):
-    """Puts it on a detail level from the next tick on; CHOSEN: the world chooses again."""
+    """Sets its detail level from the next tick on; CHOSEN: the world chooses again."""
     _of("sbr_character_set_detail_level", character, number)
 
 
 def fade(character):
-    """How far its skin still is from going over: from 1 to 0."""
+    """Remaining part of its skin's transition between levels: from 1 to 0."""
     return _of("sbr_character_get_detail_fade", character)
 
 
 def choose(world, **wanted):
-    """From now on the world chooses detail levels: by error_px, budget_us, ns_per_visit, settle, stay_s, away_after_s."""
+    """Lets the world choose detail levels from now on: by error_px, budget_us, ns_per_visit, settle, stay_s, away_after_s."""
     definition = _library().sbr_default_detail_definition()
     known = {name for name, _ in Definition._fields_} - {"cookie"}
     for name, value in wanted.items():
@@ -110,30 +110,29 @@ def choose(world, **wanted):
 
 
 def view(eye, forward, height=math.radians(60), ratio=16 / 9, lines=1080):
-    """Where characters are looked at from: a place, a direction of any length, the angle from the lower to the upper edge, width
-    over height, and pixels from edge to edge."""
+    """A camera: position, direction of any length, vertical angle of view, width over height, and height in pixels."""
     return View(Double3(*eye), Vec3(*forward), height, ratio, lines)
 
 
-def look(world, views):
-    """The views of the frames to come, at most MOST_VIEWS; without any nobody is seen."""
-    if len(views) > MOST_VIEWS:
-        raise ValueError(f"a world has at most {MOST_VIEWS} views, not {len(views)}")
+def set_views(world, views):
+    """Sets the views for the next frames, at most MAX_VIEWS; without views no character is visible."""
+    if len(views) > MAX_VIEWS:
+        raise ValueError(f"a world has at most {MAX_VIEWS} views, not {len(views)}")
     _library().sbr_world_set_views(world.pointer, (View * len(views))(*views), len(views))
 
 
 def show(character, shown):
-    """What views cannot know, one of SHOWN: a mirror (always) or a wall (never)."""
+    """Overrides visibility, one of SHOWN: for example always behind a mirror, never behind a wall."""
     if shown not in SHOWN:
         raise ValueError(f"shown is one of {', '.join(SHOWN)}, not {shown!r}")
     _of("sbr_character_set_visibility", character, SHOWN.index(shown))
 
 
 def error_px(character):
-    """By how many pixels it is taken to be off now, at its worst place; 0: it is not seen."""
+    """Its estimated largest error now, in pixels; 0: it is not visible."""
     return _of("sbr_character_get_error_px", character)
 
 
 def visits(world):
-    """What all characters together were taken to cost in the last tick, visits of elements."""
+    """Estimated cost of all characters in the last tick, in element visits."""
     return _library().sbr_world_get_element_visits(world.pointer)

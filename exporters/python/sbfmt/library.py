@@ -1,7 +1,7 @@
-"""The shared library: where it is, and its structures and calls as ctypes has them.
+"""Finds and loads the shared library, and declares its structures and calls for ctypes.
 
-The structures are those of base.h, packed.h, build.h, convert.h, validate.h and export.h of this very version; a newer
-library takes them as well, since options grow at their end alone and begin with their size.
+The structures match base.h, packed.h, build.h, convert.h, validate.h and export.h of this version. A newer library accepts them
+too, because options start with their size and grow only at the end.
 """
 
 import contextlib
@@ -124,7 +124,7 @@ class AssetMeasures(Structure):
     _fields_ = [("mass", c_double), ("bounded", c_bool), ("low", c_float * 3), ("high", c_float * 3)]
 
 
-# Options whose struct_size the library compares with its own: tests look that they are of its size.
+# Options whose struct_size the library compares with its own. Tests compare their sizes with the library.
 OPTIONS = {"sbf_load_options": LoadOptions, "sbf_given_list": GivenList, "sbf_save_options": SaveOptions, "sbf_build_options": BuildOptions,
            "sbf_convert_options": ConvertOptions, "sbf_convert_stance": ConvertStance, "sbf_validate_options": ValidateOptions,
            "sbf_export_options": ExportOptions, "sbf_diagnostic": DiagnosticStruct, "sbf_buffer": Buffer,
@@ -147,7 +147,7 @@ CALLS = {
 
 
 def candidates():
-    """Where the library may be, in order: what the environment names, beside the package, what the system knows."""
+    """Paths where the library may be, in order: from the environment, beside the package, from the system."""
     named = os.environ.get("SBFMT_LIBRARY")
     folders = FOLDERS
     if named:
@@ -161,8 +161,8 @@ def candidates():
 
 
 def opened(path):
-    """The library at a path. One that an add-on brings along is loaded from a copy: Blender writes a newer add-on over the old one's
-    files while it runs, and code that changes under a process that runs it ends that process."""
+    """The library at a path. An add-on's library is loaded from a copy. Blender overwrites the files of an add-on when it updates it,
+    and a process crashes if a library that it has loaded changes."""
     if os.path.dirname(path) != FOLDERS[1]:
         return ctypes.CDLL(path)
     handle, copy = tempfile.mkstemp(suffix=os.path.basename(path))
@@ -173,12 +173,12 @@ def opened(path):
         loaded._name = path  # pylint: disable=protected-access
         return loaded
     finally:
-        with contextlib.suppress(OSError):  # Windows keeps what is loaded
+        with contextlib.suppress(OSError):  # Windows locks loaded files
             os.unlink(copy)
 
 
 def fault_in_words(said):
-    """What the system's loader says of a library, as what to do about it."""
+    """Turns an error of the system's loader into advice."""
     system = f"{platform.system()} on {platform.machine()}"
     newer = re.search(r"version `GLIBC_([\d.]+)' not found", said)
     lacking = re.search(r"([^\s:]+): cannot open shared object file", said)
@@ -193,7 +193,7 @@ def fault_in_words(said):
 
 @functools.lru_cache(maxsize=None)
 def loaded_library():
-    """The library, loaded once, or None; and each path that was tried, with what the system's loader said of it."""
+    """The library, loaded once, or None; and each path that was tried, with the loader's error."""
     tried = []
     for path in candidates():
         try:
@@ -213,7 +213,7 @@ def library():
 
 
 def library_fault():
-    """None where there is a library; else why not and what to do, as the end of a sentence about it."""
+    """None if there is a library; else the reason and what to do, as the end of a sentence about the library."""
     loaded, tried = loaded_library()
     if loaded is not None:
         return None
@@ -236,12 +236,12 @@ def declare(loaded):
 
 
 def library_path():
-    """The file that is in use."""
+    """The path of the loaded library."""
     return library()._name  # pylint: disable=protected-access
 
 
 def library_version():
-    """The format version it writes, as the root of an empty asset states it: found by saving one."""
+    """The format version that the library writes, read from a saved empty asset."""
     create = library().sbf_asset_create
     create.argtypes, create.restype = [c_void_p], c_void_p
     made = create(None)
@@ -264,19 +264,19 @@ def diagnostic_of(found):
 
 
 def check(status, error):
-    """Raises where a call failed."""
+    """Raises if a call failed."""
     if status != OK:
         found = diagnostic_of(error)
         raise (Cancelled if found.code == "CANCELLED" else Error)(found, "input" if status == BAD_INPUT else "call")
 
 
 class Callbacks:
-    """Python's callbacks as C's; what they raise stops the work and is raised again from the call."""
+    """Python callbacks as C callbacks. An exception in one stops the work; the call raises it again."""
 
     def __init__(self, report, progress=None):
         self.raised = None
         self.report = Report(lambda _user, found: self.guard(report, diagnostic_of(found.contents))) if report else Report()
-        self.progress = Progress(lambda _user, name, share: self.go_on(progress, name.decode(), share)) if progress \
+        self.progress = Progress(lambda _user, name, fraction: self.continue_work(progress, name.decode(), fraction)) if progress \
             else Progress()
 
     def guard(self, function, *arguments):
@@ -286,9 +286,9 @@ class Callbacks:
             self.raised = self.raised or error
             return None
 
-    def go_on(self, progress, name, share):
-        """A callback that returns nothing goes on; False stops."""
-        answer = self.guard(progress, name, share)
+    def continue_work(self, progress, name, fraction):
+        """Whether to continue: False or an exception stops, anything else (also None) continues."""
+        answer = self.guard(progress, name, fraction)
         return self.raised is None and answer is not False
 
     def check(self, status, error):

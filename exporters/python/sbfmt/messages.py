@@ -1,19 +1,19 @@
-"""Findings of the library as Python objects."""
+"""Diagnostics of the library as Python objects."""
 
 import collections
 
 SEVERITIES = ("error", "warning", "info")
 
 Diagnostic = collections.namedtuple("Diagnostic", "code severity message path file line offset index")
-Diagnostic.__doc__ = """One finding. `code` is a stable word, as in spec/codes.md; line 0, offset -1 and index -1: not known."""
+Diagnostic.__doc__ = """One diagnostic. `code` is a stable name from spec/codes.md. Line 0, offset -1 and index -1: unknown."""
 
 
 class Error(Exception):
-    """A call that failed. `fault` is "input" where the file is at fault, else "call"."""
+    """A failed call. `fault` is "input" if the file is at fault, else "call"."""
 
     def __init__(self, diagnostic, fault):
-        place = diagnostic.file + (f":{diagnostic.line}" if diagnostic.line else "")
-        text = f"{place}: {diagnostic.message}" if place else diagnostic.message
+        location = diagnostic.file + (f":{diagnostic.line}" if diagnostic.line else "")
+        text = f"{location}: {diagnostic.message}" if location else diagnostic.message
         super().__init__(f"{text} [{diagnostic.code}]" + (f" at {diagnostic.path}" if diagnostic.path else ""))
         self.diagnostic, self.fault = diagnostic, fault
         self.code, self.message, self.path = diagnostic.code, diagnostic.message, diagnostic.path
@@ -21,4 +21,4 @@ class Error(Exception):
 
 
 class Cancelled(Error):
-    """The progress callback said no."""
+    """The progress callback returned False."""

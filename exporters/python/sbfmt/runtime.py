@@ -1,4 +1,4 @@
-"""The runtime: a built asset brought to life, as sbrun/sbrun.h has it.
+"""The runtime: simulates characters of a built asset; the functions of sbrun/sbrun.h.
 
     from sbfmt import runtime
     with runtime.World(runtime.flat(0.0)) as world:
@@ -8,8 +8,8 @@
             world.step(1 / 60)
         points = numpy.frombuffer(lizard.skin(0), dtype="f4").reshape(-1, 3)
 
-Lengths are in metres, +Y is up. What is read comes as ctypes arrays of floats, which numpy and memoryview take as they are; they
-lie relative to `Character.origin`. A model keeps its asset, a world its models; a world belongs to one thread at a time.
+Lengths are in metres, +Y is up. Results are ctypes arrays of floats, which numpy and memoryview accept without a copy. Positions are
+relative to `Character.origin`. A model keeps its asset, a world its models. Only one thread at a time may use a world.
 """
 
 import ctypes
@@ -24,7 +24,7 @@ from .library import DiagnosticStruct, Report, check, diagnostic_of, library, li
 
 NAME = "sbrun"
 SCHEMES = ("automatic", "symplectic", "position_based", "relaxation", "explicit_euler", "heun", "block_descent")
-NONE = -1  # of clips and bone masks
+NONE = -1  # no clip, or no bone mask
 
 
 class Vec3(Structure):
@@ -92,7 +92,7 @@ class BodyHealth(Structure):
                 ("min_element_ratio", c_float)]
 
 
-# Tests look that they are of the headers' size.
+# Tests compare their sizes with the headers.
 STRUCTS = {"sbr_ground": Ground, "sbr_model_options": ModelOptions, "sbr_world_definition": WorldDefinition,
            "sbr_character_definition": CharacterDefinition, "sbr_transform": Transform, "sbr_clip_play": ClipPlay,
            "sbr_body_health": BodyHealth}
@@ -140,8 +140,8 @@ CALLS = {
 
 @functools.lru_cache(maxsize=None)
 def runtime_library():
-    """The library that holds the runtime: the SDK's own where that has it, else libsbrun, which SBFMT_RUNTIME_LIBRARY may name,
-    or which lies beside the SDK's, or where the system keeps libraries."""
+    """The library that holds the runtime: the SDK's library if it includes it, else libsbrun. libsbrun is named by
+    SBFMT_RUNTIME_LIBRARY, or is beside the SDK's library, or in the system's library folders."""
     loaded = library()
     if not hasattr(loaded, "sbr_model_create"):
         beside = os.path.join(os.path.dirname(library_path()), f"lib{NAME}.so*")
@@ -158,7 +158,7 @@ def runtime_library():
 
 
 def floats(numbers):
-    """A ctypes array of them, whatever sequence or array of numpy's they come in."""
+    """A ctypes array of the numbers of any sequence or numpy array."""
     if hasattr(numbers, "astype"):
         data = numbers.astype("f4").tobytes()
         return (c_float * (len(data) // 4)).from_buffer_copy(data)
@@ -173,7 +173,7 @@ def flat(height=0.0):
 
 
 class GroundMesh:
-    """Ground of triangles; beyond them it lies at `otherwise`. `points` is flat: x, y, z of each."""
+    """Ground of triangles; beyond them its height is `otherwise`. `points` is flat: x, y, z of each."""
 
     def __init__(self, points, triangles, otherwise=0.0):
         self.points = floats(points)
@@ -196,8 +196,8 @@ class GroundMesh:
 # ---- Models and worlds ----
 
 class Model:
-    """What characters of one built asset share. `scheme` is one of SCHEMES; `substeps` 0: as many as it needs; `detail_levels`: with all
-    levels that it has (sbfmt.detail)."""
+    """Data that all characters of a built asset share. `scheme` is one of SCHEMES. `substeps` 0: as many as it needs.
+    `detail_levels`: with all its detail levels (sbfmt.detail)."""
 
     def __init__(self, asset, level=0, scheme="automatic", substeps=0, free=False, gravity=None, detail_levels=False):
         if scheme not in SCHEMES:
@@ -218,16 +218,16 @@ class Model:
         return found
 
     def left_out(self):
-        """What of the asset the runtime neither moves nor lets act: a list of Diagnostic."""
+        """Parts of the asset that the runtime ignores: a list of Diagnostic."""
         return self._findings(runtime_library().sbr_model_report_unsupported)
 
-    def scheme_doubts(self):
-        """Bodies whose scheme is known to be off the energy by more than a tenth: a list of Diagnostic."""
+    def scheme_warnings(self):
+        """Bodies whose scheme is known to have an energy error above 10 %: a list of Diagnostic."""
         return self._findings(runtime_library().sbr_model_report_scheme_bias)
 
 
 class World:
-    """Steps characters over a ground: `flat`, or a GroundMesh. It has room for `capacity` of them, 0: for 16."""
+    """Simulates characters on a ground: `flat`, or a GroundMesh. `capacity` is the largest number of characters, 0: 16."""
 
     def __init__(self, ground=None, gravity=None, sleep_after=0.5, capacity=0):
         definition = runtime_library().sbr_default_world_definition()
@@ -249,12 +249,13 @@ class World:
         self.close()
 
     def close(self):
-        """Frees it with its characters now rather than when Python finds time for it."""
+        """Frees it and its characters now, without waiting for Python's garbage collection."""
         self._finalizer()
         self.pointer, self.characters, self.models = None, [], []
 
     def add(self, model, position=(0, 0, 0), heading=0.0, scale=1.0, hold=False, detail_level=0):
-        """A character; the height of its position counts from the ground. Who is far off begins on a coarse detail level (detail.py)."""
+        """Adds a character. The height of its position is relative to the ground. A distant character may start on a coarse detail level
+        (detail.py)."""
         definition = runtime_library().sbr_default_character_definition()
         definition.position, definition.heading = Double3(*position), heading
         definition.scale, definition.hold, definition.detail_level = scale, hold, detail_level
@@ -271,14 +272,14 @@ class World:
         return runtime_library().sbr_world_get_state_hash(self.pointer)
 
     def snapshot(self):
-        """All that can change, as bytes for `restore`."""
+        """The complete state as bytes for `restore`."""
         size = runtime_library().sbr_world_get_snapshot_size(self.pointer)
         kept = ctypes.create_string_buffer(size)
         runtime_library().sbr_world_save_snapshot(self.pointer, kept, size)
         return kept
 
     def restore(self, kept):
-        """Back to a snapshot of this world with the same characters; False where it is of another."""
+        """Restores a snapshot of this world with the same characters; False if it is of another world."""
         return runtime_library().sbr_world_restore_snapshot(self.pointer, kept, len(kept)) == 0
 
 
@@ -292,19 +293,19 @@ class Character:
         return getattr(runtime_library(), name)(self._world.pointer, self._id, *arguments)
 
     def drive(self, forward=0.0, sideways=0.0, turn=0.0, up=0.0):
-        """Wanted speeds, m/s and rad/s; left is positive; up of what swims or flies."""
+        """Sets the target speeds in m/s and rad/s. Left is positive; `up` is for characters that swim or fly."""
         self.call("sbr_character_set_drive", forward, sideways, turn)
         self.call("sbr_character_set_vertical_speed", up)
 
     def displace(self, by, turn=0.0):
-        """Moves and turns it in the next tick, m and rad; its feet step after it."""
+        """Moves and turns it in the next tick, in m and rad. Its feet follow in steps."""
         self.call("sbr_character_displace", Vec3(*by), turn)
 
     def teleport(self, position, heading):
         self.call("sbr_character_teleport", Double3(*position), heading)
 
     def play(self, clip, layer=0, weight=1.0, fade=0.0, speed=1.0, start=0.0):
-        """Plays a clip of the asset by its number; NONE fades the layer out."""
+        """Plays a clip of the asset by its index; NONE fades the layer out."""
         how = runtime_library().sbr_default_clip_play()
         how.weight, how.fade_s, how.speed, how.start_s = weight, fade, speed, start
         self.call("sbr_character_play_clip", layer, clip, byref(how))
@@ -338,7 +339,7 @@ class Character:
         return self.read("sbr_character_get_points", soft_body)
 
     def torn(self, render_mesh):
-        """For each polygon of a render mesh whether it spans a tear, and is not to be drawn."""
+        """For each polygon of a render mesh whether it spans a tear. Such polygons must not be drawn."""
         count = self.call("sbr_character_get_torn_polygons", render_mesh, 0, None, 0)
         found = (c_uint8 * count)()
         self.call("sbr_character_get_torn_polygons", render_mesh, 0, found, count)
@@ -351,7 +352,7 @@ class Character:
         return found
 
     def bone_scales(self, count):
-        """How the first `count` bones are scaled along their own axes: an array of 3 numbers each."""
+        """The scale of the first `count` bones along their own axes: an array of 3 numbers each."""
         found = (Vec3 * count)()
         self.call("sbr_character_get_bone_scales", found, count)
         return found
@@ -360,5 +361,5 @@ class Character:
         return self.call("sbr_character_get_body_health", soft_body)
 
     def passes(self, soft_body):
-        """How often all elements of a soft body have been looked at: what its motion costs, on any machine."""
+        """Element visits of a soft body so far: the cost of its motion, independent of the machine."""
         return self.call("sbr_character_get_element_visits", soft_body)

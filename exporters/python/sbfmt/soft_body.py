@@ -1,4 +1,4 @@
-"""Soft bodies that a host pushes, holds, drags and measures, as sbrun/soft_body.h has them.
+"""Applies forces to soft bodies, drags their vertices and measures them: the functions of sbrun/soft_body.h.
 
     from sbfmt import runtime, soft_body
     with runtime.World(runtime.flat(0.0)) as world:
@@ -9,8 +9,8 @@
             world.step(1 / 60)
         print(soft_body.hold_force(lizard, 0, vertex), soft_body.pin_reactions(lizard, 0))
 
-Metres, newtons, newton-seconds and rad/s of the world; positions that come back lie relative to `Character.origin`. What the runtime
-refuses raises sbfmt.Error. A vertex is one of the body's surface; WHOLE_BODY in its place means all points.
+Units are metres, newtons, newton-seconds and rad/s, in world space. Returned positions are relative to `Character.origin`. A call that
+the runtime rejects raises sbfmt.Error. A vertex is a vertex of the body's surface; WHOLE_BODY means all points.
 """
 
 import collections
@@ -23,9 +23,9 @@ from .runtime import C, ERROR, Double3, Vec3, W, runtime_library
 
 WHOLE_BODY = 0xFFFFFFFF
 
-# kg, and of the free points as one rigid body: centre of mass (m), its velocity (m/s), angular velocity (rad/s).
+# Mass (kg), and the free points' motion as one rigid body: centre of mass (m), velocity (m/s), angular velocity (rad/s).
 Motion = collections.namedtuple("Motion", "mass center velocity angular_velocity")
-# Of one pin set: what holds it (-1: not a bone, not a rigid body), its points, their mean position (m), force (N) and torque (N m) on the body.
+# One pin set: its bone and rigid body (-1: none), its points, their mean position (m), force (N) and torque (N m) on the body.
 PinReaction = collections.namedtuple("PinReaction", "pin_set bone rigid_body points about force torque")
 
 
@@ -33,7 +33,7 @@ class MotionStruct(Structure):
     _fields_ = [("mass", c_float), ("center", Vec3), ("velocity", Vec3), ("angular_velocity", Vec3)]
 
 
-class HoldStruct(Structure):
+class VertexPinStruct(Structure):
     _fields_ = [("cookie", c_uint32), ("target", Double3), ("frequency_hz", c_float), ("damping_ratio", c_float), ("max_force", c_float)]
 
 
@@ -50,13 +50,13 @@ class Tetrahedron(Structure):
 
 
 class Spring(Structure):
-    """Points of the level, tension in N (below 0 it pushes), energy in J."""
+    """Points of the level, tension in N (negative: compression), energy in J."""
 
     _fields_ = [("ends", c_uint32 * 2), ("tension", c_float), ("energy", c_float), ("torn", c_bool)]
 
 
-# Tests look that they are of the headers' size.
-STRUCTS = {"sbr_soft_motion": MotionStruct, "sbr_soft_hold": HoldStruct, "sbr_pin_reaction": PinReactionStruct,
+# Tests compare their sizes with the headers.
+STRUCTS = {"sbr_soft_motion": MotionStruct, "sbr_soft_hold": VertexPinStruct, "sbr_pin_reaction": PinReactionStruct,
            "sbr_tetrahedron_state": Tetrahedron, "sbr_spring_state": Spring}
 
 BODY, VERTEX = c_uint32, c_uint32
@@ -65,8 +65,8 @@ CALLS = {
     "sbr_character_set_soft_velocity": (c_int, [W, C, BODY, Vec3, Vec3, ERROR]),
     "sbr_character_apply_soft_impulse": (c_int, [W, C, BODY, VERTEX, Vec3, ERROR]),
     "sbr_character_apply_soft_force": (c_int, [W, C, BODY, VERTEX, Vec3, c_float, ERROR]),
-    "sbr_default_soft_hold": (HoldStruct, []),
-    "sbr_character_hold_vertex": (c_int, [W, C, BODY, VERTEX, POINTER(HoldStruct), ERROR]),
+    "sbr_default_soft_hold": (VertexPinStruct, []),
+    "sbr_character_hold_vertex": (c_int, [W, C, BODY, VERTEX, POINTER(VertexPinStruct), ERROR]),
     "sbr_character_release_vertex": (c_bool, [W, C, BODY, VERTEX]),
     "sbr_character_get_hold_force": (Vec3, [W, C, BODY, VERTEX]),
     "sbr_character_find_nearest_vertex": (c_uint32, [W, C, BODY, Double3]),
@@ -113,7 +113,7 @@ def motion(character, body):
 
 
 def set_velocity(character, body, velocity, angular_velocity=(0, 0, 0)):
-    """Sets the motion of a body as a whole, m/s and rad/s; its deformation keeps its own."""
+    """Sets the rigid motion of a body, in m/s and rad/s; its deformation is unchanged."""
     _do("sbr_character_set_soft_velocity", character, body, Vec3(*velocity), Vec3(*angular_velocity))
 
 
@@ -123,12 +123,12 @@ def apply_impulse(character, body, impulse, vertex=WHOLE_BODY):
 
 
 def apply_force(character, body, force, seconds, vertex=WHOLE_BODY):
-    """Applies a constant force in N for so many seconds, at a vertex or to the whole body."""
+    """Applies a constant force in N for `seconds`, at a vertex or to the whole body."""
     _do("sbr_character_apply_soft_force", character, body, vertex, Vec3(*force), seconds)
 
 
 def hold(character, body, vertex, target, frequency_hz=0.0, damping_ratio=1.0, max_force=0.0):
-    """Draws a vertex to a target (world, m) until it is released; again: moves the target. 0: the runtime's defaults."""
+    """Pulls a vertex to a target (world, m) until it is released. Another call moves the target. 0: the runtime's defaults."""
     how = _library().sbr_default_soft_hold()
     how.target = Double3(*target)
     how.frequency_hz, how.damping_ratio, how.max_force = frequency_hz, damping_ratio, max_force
@@ -136,7 +136,7 @@ def hold(character, body, vertex, target, frequency_hz=0.0, damping_ratio=1.0, m
 
 
 def release(character, body, vertex):
-    """Releases a vertex; False where it was not held."""
+    """Releases a vertex; False if it was not held."""
     return _ask("sbr_character_release_vertex", character, body, vertex)
 
 
@@ -146,21 +146,21 @@ def hold_force(character, body, vertex):
 
 
 def nearest_vertex(character, body, position):
-    """Vertex of the body's surface nearest to a position (world, m); WHOLE_BODY where it has none."""
+    """Vertex of the body's surface nearest to a position (world, m); WHOLE_BODY if it has no surface."""
     return _ask("sbr_character_find_nearest_vertex", character, body, Double3(*position))
 
 
 def pin_reactions(character, body):
-    """What each pin set of the simulated level exerts on the body: a list of PinReaction."""
+    """Force and torque of each pin set on the body: a list of PinReaction."""
     return [PinReaction(one.pin_set, one.bone, one.rigid_body, one.points, _numbers(one.about), _numbers(one.force), _numbers(one.torque))
             for one in _list("sbr_character_get_pin_reactions", PinReactionStruct, character, body)]
 
 
 def tetrahedra(character, body):
-    """Stress, energy and volume of the simulated level's tetrahedra: an array of Tetrahedron, empty where it has none."""
+    """Stress, energy and volume of the simulated level's tetrahedra: an array of Tetrahedron, empty if it has none."""
     return _list("sbr_character_get_tetrahedra", Tetrahedron, character, body)
 
 
 def springs(character, body):
-    """Tension and energy of the simulated level's springs: an array of Spring, empty where it has none."""
+    """Tension and energy of the simulated level's springs: an array of Spring, empty if it has none."""
     return _list("sbr_character_get_springs", Spring, character, body)

@@ -1,4 +1,4 @@
-"""From the format to Blender: `import_scene` leads; each other module makes one kind of thing."""
+"""Imports a document into Blender. `import_scene` calls the other modules, each of which makes one kind of object."""
 
 from .import_scene import SceneMaker
 

@@ -1,15 +1,15 @@
-"""Bones as an armature; joints and what bones weigh as its panels' settings."""
+"""Imports bones as an armature. Joints and masses of bones become settings of the bone panels."""
 
 import bpy
 from mathutils import Matrix, Quaternion, Vector
 
 from ..to_document.rigid_parts import ABOUT
 
-LEAST_LENGTH_M = 1e-4  # Blender removes bones shorter than it can draw
+MIN_LENGTH_M = 1e-4  # Blender removes bones shorter than it can draw
 
 
 def make_armature(document, space, collection, context):
-    """The armature object, or None where there are no bones; names that stand twice get numbers."""
+    """The armature object, or None without bones. Blender numbers repeated names."""
     if not document.bones:
         return None
     data = bpy.data.armatures.new(document.info.title or "Skeleton")
@@ -33,7 +33,7 @@ def make_bone(edit_bones, bone, names, space):
     made.head, made.tail = (0, 0, 0), (0, 1, 0)
     frame = space.rotation_back(bone.rotation).to_matrix()
     made.matrix = Matrix.Translation(space.point_back(bone.head)) @ frame.to_4x4()
-    made.length = max(bone.length, LEAST_LENGTH_M) / space.unit_m
+    made.length = max(bone.length, MIN_LENGTH_M) / space.unit_m
     if bone.parent:
         made.parent = edit_bones[names[bone.parent]]
     return made.name
@@ -47,7 +47,7 @@ def fill_bone(made, bone, order):
 
 
 def fill_joints(document, armature, names, joined):
-    """Joints between bodies of bones that no constraint shows yet; other joints are kept in memory alone."""
+    """Fills in joints between rigid bodies of bones that have no constraint yet. Other joints are only kept in memory."""
     bodies = {body.id: body for body in document.rigid_bodies}
     for joint in document.joints:
         below, above = bodies.get(joint.body_b), bodies.get(joint.body_a)
@@ -70,7 +70,7 @@ def fill_joints(document, armature, names, joined):
 
 
 def axis_of(joint, document, below):
-    """The bone's axis nearest to the joint's X."""
+    """The axis of the bone that is closest to the joint's X axis."""
     def turn(xyzw):
         return Quaternion((xyzw[3], *xyzw[:3]))
 

@@ -1,11 +1,11 @@
-"""Chains of inverse kinematics that no leg uses, as IK constraints with empties to pull at."""
+"""Imports inverse kinematics chains that no leg uses as IK constraints, with empties as targets."""
 
 import bpy
 from mathutils import Vector
 
 
 def fill_chains(maker):
-    """One constraint a chain, on the bone before its end, whose tail reaches for an empty where the end lies at rest."""
+    """Adds one constraint for each chain, to the bone before the chain's end. Its target is an empty at the end's rest position."""
     document, armature = maker.document, maker.armature
     legs = {leg.ik for gait in document.gaits[:1] for leg in gait.legs}
     for chain in document.ik_chains:
@@ -21,7 +21,7 @@ def fill_chains(maker):
         make_constraint(maker, chain, bones[1:], end)
         for comfort in chain.comforts:
             pose = armature.pose.bones[maker.names[comfort.bone]]
-            pose.ik_stiffness_x, pose.ik_stiffness_y, pose.ik_stiffness_z = (min(comfort.weight * share, 0.99) for share in comfort.axes)
+            pose.ik_stiffness_x, pose.ik_stiffness_y, pose.ik_stiffness_z = (min(comfort.weight * fraction, 0.99) for fraction in comfort.axes)
 
 
 def make_constraint(maker, chain, bones, end):
@@ -38,15 +38,15 @@ def make_constraint(maker, chain, bones, end):
             made.pole_target = make_empty(maker, f"{end.name} pole", maker.space.point_back(chain.pole))
 
 
-def make_empty(maker, name, place):
+def make_empty(maker, name, position):
     made = bpy.data.objects.new(name, None)
-    made.location, made.empty_display_size = place, 0.1 * max(maker.armature.dimensions) or 0.1
+    made.location, made.empty_display_size = position, 0.1 * max(maker.armature.dimensions) or 0.1
     maker.collection.objects.link(made)
     return made
 
 
 def pole_angle(root, last, pole):
-    """How far about the root bone its X axis is from the plane of the chain and the pole: with it the chain rests as it does."""
+    """The angle about the root bone from its X axis to the plane of the chain and the pole. It keeps the chain in its rest pose."""
     along = root.tail_local - root.head_local
     normal = (last.tail_local - root.head_local).cross(Vector(pole) - root.head_local)
     wanted, across = normal.cross(along), root.matrix_local.to_3x3() @ Vector((1, 0, 0))

@@ -1,4 +1,4 @@
-"""Materials with a principled shader each, and the images they show."""
+"""Imports materials as principled shaders, with their images."""
 
 import os
 import tempfile
@@ -41,7 +41,7 @@ def make_material(record, images):
 
 
 def fill_opacity(material, record, nodes, base, opacity):
-    """As a node where an image or a cutoff takes part; older Blenders want to be told how to draw it, too."""
+    """Sets the opacity; uses nodes for an image or a cutoff. Older versions of Blender also need a blend method."""
     socket = nodes.input("Alpha")
     socket.default_value = opacity
     if record.alpha_mode == "opaque":
@@ -68,7 +68,7 @@ def fill_roughness(record, nodes, image):
 
 
 def make_image(texture, folder, findings):
-    """From the file beside the bundle, or from the bytes in it, packed into the .blend."""
+    """Loads an image from the file beside the bundle, or packs the bundle's embedded bytes into the .blend."""
     image = from_bytes(texture) if texture.bytes else from_file(texture, folder, findings)
     if image is not None:
         image.name = texture.name or texture.id

@@ -1,4 +1,4 @@
-"""What a mesh has beside polygons: texture coordinates, normals, materials, weights and shape keys."""
+"""Imports texture coordinates, normals, materials, weights and shape keys of a mesh."""
 
 import numpy
 
@@ -12,7 +12,7 @@ def fill_uv_sets(mesh, record, corners):
 
 
 def fill_normals(mesh, record, space, corners):
-    """As stated; where they agree along every edge the mesh is drawn smooth."""
+    """Sets the file's normals. A mesh whose normals agree along every edge gets smooth shading."""
     normals = numpy.array(record.normals, dtype=numpy.float32).reshape(-1, 3)
     if not len(normals):
         return
@@ -33,7 +33,7 @@ def fill_materials(mesh, record, materials, corners):
 
 
 def fill_skin(made, record, bone_names):
-    """One vertex group a bone, with its weights."""
+    """Makes one vertex group for each bone, with its weights."""
     groups, first = {}, 0
     for vertex, count in enumerate(record.skin.influence_counts):
         for at in range(first, first + count):

@@ -1,4 +1,4 @@
-"""Polygons as meshes."""
+"""Imports polygons as meshes."""
 
 import bpy
 import numpy
@@ -26,10 +26,12 @@ def add_polygons(mesh, points, polygon_points, sizes):
 
 
 class Corners:
-    """What Blender holds of a document's polygons. One that comes to a point twice, as around a hole that a slit joins to its rim, is no
-    face there, and some of Blender's functions write past their memory where it stands: it is cut into triangles.
+    """The document's polygons as faces that Blender can hold. A polygon may use a point twice, for example around a hole that a slit
+    joins to the rim. Blender has no such faces, and some of its functions then write out of bounds, so the polygon is cut into
+    triangles.
 
-    `sizes`, `points`: the faces. `corner`, `polygon`: the document's, of each of their corners and of each face."""
+    `sizes`, `points`: the faces. `corner`: the document's corner of each face corner. `polygon`: the document's polygon of each
+    face."""
 
     def __init__(self, record, points):
         sizes = numpy.array(record.polygon_sizes, dtype=numpy.int32)
@@ -39,26 +41,26 @@ class Corners:
         self.sizes, self.polygon = sizes, numpy.arange(len(sizes))
         self.corner = numpy.arange(len(polygon_points))
         if len(again):
-            odd = numpy.isin(polygon_of, again)
-            triangles, owners = cut(points[polygon_points[odd]], sizes[again])
-            triangles, owners = numpy.flatnonzero(odd)[triangles], again[owners]
+            repeated_corners = numpy.isin(polygon_of, again)
+            triangles, owners = cut(points[polygon_points[repeated_corners]], sizes[again])
+            triangles, owners = numpy.flatnonzero(repeated_corners)[triangles], again[owners]
             sound = [len(set(three)) == 3 for three in polygon_points[triangles].tolist()]
             kept = numpy.delete(self.polygon, again)
             self.sizes = numpy.concatenate((sizes[kept], numpy.full(sum(sound), 3, dtype=numpy.int32)))
             self.polygon = numpy.concatenate((kept, owners[sound]))
-            self.corner = numpy.concatenate((self.corner[~odd], triangles[sound].ravel()))
+            self.corner = numpy.concatenate((self.corner[~repeated_corners], triangles[sound].ravel()))
         self.points = polygon_points[self.corner]
 
 
 def repeated(polygon_of, polygon_points):
-    """Numbers of the polygons that name a point twice."""
+    """Indices of the polygons that use a point twice."""
     order = numpy.lexsort((polygon_points, polygon_of))
     polygons, points = polygon_of[order], polygon_points[order]
     return numpy.unique(polygons[1:][(polygons[1:] == polygons[:-1]) & (points[1:] == points[:-1])])
 
 
 def cut(corner_points, sizes):
-    """(corners of triangles, the polygon of each) of polygons whose corners are points of their own."""
+    """(corners of the triangles, polygon of each triangle). Each corner of `polygons` is its own point."""
     scratch = bpy.data.meshes.new("cut")
     add_polygons(scratch, corner_points, numpy.arange(len(corner_points)), sizes)
     scratch.calc_loop_triangles()

@@ -1,4 +1,4 @@
-"""What sections are made of, as the panels of the scene and of bones."""
+"""Imports materials of sections as settings of the scene panel and the bone panels."""
 
 from ..settings.attributes import read_attributes
 

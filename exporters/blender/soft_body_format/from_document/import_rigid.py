@@ -1,4 +1,4 @@
-"""Rigid bodies with hulls of their own as objects with rigid body settings; joints between them as constraints on empties."""
+"""Imports rigid bodies with hulls as objects with rigid body settings, and joints between them as constraints on empties."""
 
 import bpy
 from mathutils import Vector
@@ -12,7 +12,7 @@ TYPES = {"fixed": "FIXED", "spherical": "POINT", "revolute": "HINGE", "prismatic
 
 
 class RigidMaker:
-    """`made` holds the object of each rigid body that got one, by its id; `joined` the joints that became constraints."""
+    """`made` maps ids of rigid bodies to their objects. `joined` holds the joints that became constraints."""
 
     def __init__(self, maker):
         self.maker, self.made, self.joined = maker, {}, set()
@@ -30,14 +30,14 @@ class RigidMaker:
     # ---- Bodies ----
 
     def body(self, record):
-        """The object whose mesh has this hull, else one of its own that nobody sees."""
+        """The object whose mesh has this hull, else a new hidden object."""
         made = self.twin(record)
         if made is None:
             mesh, _ = make_mesh(record.name or record.id, record.hull, self.maker.space)
             made = bpy.data.objects.new(record.name or record.id, mesh)
             self.maker.collection.objects.link(made)
             made.display_type, made.soft_body_format.simulation_only = "WIRE", True
-            self.maker.hang(made, record.bone)
+            self.maker.attach_to_bone(made, record.bone)
         self.maker.act_on(made, bpy.ops.rigidbody.object_add)
         settings, own = made.rigid_body, made.soft_body_format
         own.role, own.rigid_identity = "COLLISION", record.id
@@ -50,11 +50,11 @@ class RigidMaker:
         self.made[record.id] = made
 
     def twin(self, record):
-        places = set(zip(*[iter(record.hull.positions)] * 3))
+        positions = set(zip(*[iter(record.hull.positions)] * 3))
         for mesh in self.maker.document.render_meshes:
             made = self.maker.object_of_mesh.get(mesh.id)
             if made is not None and mesh.name == record.name and mesh.skin is None and not made.soft_body_format.body_identity and \
-                    places <= set(zip(*[iter(mesh.mesh.positions)] * 3)):
+                    positions <= set(zip(*[iter(mesh.mesh.positions)] * 3)):
                 return made
         return None
 
@@ -97,7 +97,7 @@ class RigidMaker:
             elif limit.target in ANGULAR:
                 name, scale = "ang_z" if settings.type == "HINGE" else f"ang_{'xyz'[ANGULAR.index(limit.target)]}", 1
             else:
-                continue  # a cone has no place in Blender's constraints: it is kept in memory
+                continue  # Blender's constraints have no cone: it is kept in memory
             setattr(settings, f"use_limit_{name}", True)
             setattr(settings, f"limit_{name}_lower", limit.min * scale)
             setattr(settings, f"limit_{name}_upper", limit.max * scale)

@@ -1,4 +1,4 @@
-"""A document as Blender objects: an armature, the meshes, their settings; and what an export needs to give the rest back."""
+"""Imports a document as Blender objects: an armature, meshes and settings. Keeps the document for a later export."""
 
 import bpy
 from mathutils import Matrix
@@ -37,17 +37,17 @@ class SceneMaker:
         import_settings.fill_gait(self.context.scene, self.document, self.armature, self.names, self.space)
         import_recipes.fill_recipes(self.context.scene, self.document, self.armature, self.names)
         self.context.view_layer.update()
-        untouched = SceneWriter(self.context, Options(collection=self.collection.name), Findings()).write()
-        memory.keep(self.collection, self.document, untouched, self.space)
+        unchanged = SceneWriter(self.context, Options(collection=self.collection.name), Findings()).write()
+        memory.keep(self.collection, self.document, unchanged, self.space)
 
     def act_on(self, made, call):
-        """Calls one of Blender's operators that work on the active object."""
+        """Calls a Blender operator that works on the active object."""
         self.context.view_layer.objects.active = made
         with self.context.temp_override(object=made, active_object=made, selected_objects=[made], selected_editable_objects=[made]):
             call()
 
     def make_meshes(self, materials):
-        """One object for a body and the render mesh of the same shape; a body that a build derived is no object."""
+        """Makes one object for a body and the render mesh of the same shape. Bodies that a build derived get no object."""
         bodies = {body.id: body for body in self.document.soft_bodies if not body.derived}
         for record in self.document.render_meshes:
             if record.derived:
@@ -85,14 +85,14 @@ class SceneMaker:
                 made.modifiers.new("Armature", "ARMATURE").object = self.armature
         if body:
             import_settings.fill_body(made, body, self.armature, self.names)
-        self.hang(made, body.bone if body else record.bone)
+        self.attach_to_bone(made, body.bone if body else record.bone)
 
-    def hang(self, made, bone):
-        """Parents to a bone and keeps the place."""
+    def attach_to_bone(self, made, bone):
+        """Parents the object to a bone and keeps its world position."""
         if not bone or made.parent is not None:
             return
         name = self.names[bone]
         made.parent, made.parent_type, made.parent_bone = self.armature, "BONE", name
         rest = self.armature.data.bones[name]
-        # Children hang on a bone's tail.
+        # A child's origin is relative to the bone's tail.
         made.matrix_parent_inverse = (rest.matrix_local @ Matrix.Translation((0, rest.length, 0))).inverted()

@@ -1,4 +1,4 @@
-"""Bodies, pins and the gait as the panels' settings."""
+"""Imports bodies, pins and the gait as settings of the panels."""
 
 from ..settings.attributes import read_attributes
 
@@ -39,7 +39,7 @@ def group_of(made, name, points, weights):
 
 
 def fill_gait(scene, document, armature, names, space):
-    """The first gait; the panel holds one."""
+    """Fills in the first gait, because the panel holds one."""
     if not document.gaits or armature is None:
         return
     fill_walk(scene, document, armature, names, space)
@@ -47,7 +47,7 @@ def fill_gait(scene, document, armature, names, space):
 
 
 def fill_walk(scene, document, armature, names, space):
-    """Of the gait all but the followers."""
+    """Fills in everything of the gait except the followers."""
     record, gait = document.gaits[0], scene.soft_body_format.gait
     gait.use, gait.armature, gait.identity = True, armature, record.id
     for name in ("body", "hips", "chest"):

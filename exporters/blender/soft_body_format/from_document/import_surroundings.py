@@ -1,4 +1,4 @@
-"""Gravity of the scene, and force fields as empties."""
+"""Imports gravity as the scene's, and force fields as empties."""
 
 import bpy
 from mathutils import Vector
@@ -18,15 +18,15 @@ def fill_surroundings(maker):
         made = bpy.data.objects.new(record.name or record.id, None)
         maker.collection.objects.link(made)
         made.location = maker.space.point_back(record.position)
-        way = maker.space.direction_back(record.direction)
-        if way.length > 0:
-            made.rotation_euler = way.to_track_quat("Z", "Y").to_euler()
+        direction = maker.space.direction_back(record.direction)
+        if direction.length > 0:
+            made.rotation_euler = direction.to_track_quat("Z", "Y").to_euler()
         made.soft_body_format.field_identity = record.id
         maker.act_on(made, bpy.ops.object.forcefield_toggle)
         field = made.field
         field.type, field.flow = TYPES[record.kind], 0
         setattr(field, "quadratic_drag" if record.kind == "drag" else "strength", record.strength)
         if record.kind == "drag":
-            field.linear_drag = 0  # which brakes by the square of the speed, whatever their names say
+            field.linear_drag = 0  # Blender's linear drag grows with the square of the speed
         field.use_max_distance, field.distance_max = record.radius > 0, record.radius / maker.space.unit_m
         field.falloff_power, field.shape = record.falloff, "POINT"

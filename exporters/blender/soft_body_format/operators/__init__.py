@@ -1,1 +1,1 @@
-"""What a menu or a button starts."""
+"""Operators that menus and buttons start."""

@@ -1,4 +1,4 @@
-"""Scene > Soft body format > Preview > Bake: the preview's motion as point caches or shape keys."""
+"""Scene > Soft body format > Preview > Bake: writes the preview's motion to point caches or shape keys."""
 
 import os
 
@@ -14,23 +14,23 @@ from .working import Refused, WithLibrary
 
 
 class CacheTake:
-    """Writes each object's points as the frames pass, in its own space; in the world's of what has no points that a modifier could
-    move, for which copies play."""
+    """Writes each object's points in every frame, in the object's space. Objects without points that a modifier can move play as
+    copies; their points are in world space."""
 
     def __init__(self, scene, stage, folder, ending, samples):
         self.scene, self.stage, self.folder, self.ending, self.samples = scene, stage, folder, ending, samples
         self.start, self.writers = scene.frame_current, {}
         os.makedirs(folder, exist_ok=True)
 
-    def take(self, actor, places, _frame):
+    def take(self, actor, positions, _frame):
         name = actor.source
         if name not in self.writers:
             path = os.path.join(self.folder, bpy.path.clean_name(name) + self.ending)
-            self.writers[name] = CacheWriter(path, len(places), self.samples, self.start, frame_rate(self.scene))
+            self.writers[name] = CacheWriter(path, len(positions), self.samples, self.start, frame_rate(self.scene))
         if self.stage.has_points(actor):
             inverse = numpy.array(self.scene.objects[name].matrix_world.inverted_safe())
-            places = places @ inverse[:3, :3].T + inverse[:3, 3]
-        self.writers[name].write(places)
+            positions = positions @ inverse[:3, :3].T + inverse[:3, 3]
+        self.writers[name].write(positions)
 
     def finish(self, context):
         others = [actor for actor in self.stage.actors if not self.stage.has_points(actor)]
@@ -46,21 +46,21 @@ class CacheTake:
 
 
 class KeyTake:
-    """Keeps every n-th frame, and the last, for shape keys of copies."""
+    """Keeps every n-th frame and the last one for shape keys of copies."""
 
     def __init__(self, stage, start, end, every):
         self.stage = stage
         self.frames = [frame for frame in range(start, end + 1) if (frame - start) % every == 0 or frame == end]
         self.recorded = {}
 
-    def take(self, actor, places, frame):
+    def take(self, actor, positions, frame):
         if frame in self.frames:
-            self.recorded.setdefault(actor.source, []).append(places)
+            self.recorded.setdefault(actor.source, []).append(positions)
 
     def finish(self, context):
         for name, made in baked.add_copies(context, self.stage, self.stage.actors).items():
             baked.add_keys(made, self.recorded[name], self.frames)
-        return f"{len(self.recorded)} copies with {len(self.frames)} shapes each are in the collection {baked.NAME}"
+        return f"{len(self.recorded)} copies with {len(self.frames)} shape keys each are in the collection {baked.NAME}"
 
     def drop(self):
         self.recorded = {}
@@ -77,7 +77,7 @@ class SBFMT_OT_bake(WithLibrary, bpy.types.Operator):
     @staticmethod
     def folder(settings):
         if settings.bake_folder.startswith("//") and not bpy.data.filepath:
-            raise Refused("point caches lie beside the .blend, which has no place yet: save it, or choose another folder")
+            raise Refused("point caches are written beside the .blend, which is not saved yet: save it, or choose another folder")
         return os.path.normpath(bpy.path.abspath(settings.bake_folder))
 
     def work(self, context):
@@ -100,10 +100,10 @@ class SBFMT_OT_bake(WithLibrary, bpy.types.Operator):
                 for actor in stage.actors:
                     take.take(actor, session.points(actor), frame)
                 yield "Baking:", (frame - start + 1) / (end - start + 1)
-            told = take.finish(context)
+            report_exceptions = take.finish(context)
             done = True
             scene.frame_set(start)
-            self.report({"INFO"}, told)
+            self.report({"INFO"}, report_exceptions)
         finally:
             if take is not None and not done:
                 take.drop()
@@ -114,14 +114,14 @@ class SBFMT_OT_bake(WithLibrary, bpy.types.Operator):
 
 
 class SBFMT_OT_bake_cut(bpy.types.Operator):
-    """Keep no more of the bakes than the frames from start to end"""
+    """Keep only the frames from start to end of the bakes"""
 
     bl_idname = "sbfmt.bake_cut"
     bl_label = "Cut ends"
     bl_options = {"REGISTER", "UNDO"}
 
-    start: IntProperty(name="Start", description="First frame that is kept")
-    end: IntProperty(name="End", description="Last frame that is kept")
+    start: IntProperty(name="Start", description="First frame to keep")
+    end: IntProperty(name="End", description="Last frame to keep")
 
     @classmethod
     def poll(cls, _context):
@@ -150,7 +150,7 @@ class SBFMT_OT_bake_cut(bpy.types.Operator):
 
 
 class SBFMT_OT_bake_free(bpy.types.Operator):
-    """Take the bakes away: their modifiers and copies, not the files"""
+    """Remove the bakes: their modifiers and copies, not the files"""
 
     bl_idname = "sbfmt.bake_free"
     bl_label = "Free"

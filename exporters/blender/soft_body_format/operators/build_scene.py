@@ -1,4 +1,4 @@
-"""Scene > Soft body format > Build: what the library makes of the character, in the background, and then drawn over it."""
+"""Scene > Soft body format > Build: builds the character in the background, then draws the result over it."""
 
 import bpy
 
@@ -13,7 +13,7 @@ from .working import Refused, WithLibrary
 
 
 def built_scene(operator, context, change=None):
-    """A generator as `build_in_steps`, that returns (Built, Whole) of the scene. `change` may change the document before."""
+    """A generator like `build_in_steps` that returns (Built, Whole) of the scene. `change` may change the document first."""
     findings = Findings()
     whole = write_whole(context, Options(textures="EMBED"), findings)
     if findings.errors:

@@ -1,4 +1,4 @@
-"""Scene > Soft body format > Check: what an export would say, as a list; a click selects what it is about."""
+"""Scene > Soft body format > Check: lists the messages of an export. A click on a message selects its object, bone or vertices."""
 
 import time
 
@@ -7,34 +7,34 @@ from bpy.props import IntProperty
 
 from .. import sbfmt
 from ..findings import Findings
-from ..finishing import check, has_library, mender, to_asset
-from ..mending import mend_of
+from ..finishing import check, has_library, repair_reporter, to_asset
+from ..repairs import repair_of
 from ..to_document import Options
 from ..whole import write_whole
-from .own_faults import told
+from .exception_reports import report_exceptions
 
 COLUMNS = ("severity", "message", "object_name", "bone_name", "code", "vertices")  # of the list
 
 
 def find(context):
-    """What is wrong with the scene, without writing anything."""
+    """Checks the scene and writes nothing."""
     findings = Findings()
     whole = write_whole(context, Options(textures="EMBED"), findings)
     if not has_library():
         findings.info(f"only what the add-on itself knows was checked: the compiled library {sbfmt.library_fault()}")
     elif not findings.errors:
         try:
-            mended = mender(findings, whole.locator) if context.scene.soft_body_format.mends_files else None
-            with to_asset(whole.document, mended) as asset:
+            repaired = repair_reporter(findings, whole.locator) if context.scene.soft_body_format.mends_files else None
+            with to_asset(whole.document, repaired) as asset:
                 check(asset, "", findings, whole.locator)
-            findings[:] = [one for one in findings if one.code != "DERIVED_STALE"]  # what is written is built anew
+            findings[:] = [one for one in findings if one.code != "DERIVED_STALE"]  # an export builds the derived parts again
         except sbfmt.Error as error:
             findings.error(str(error))
     return findings
 
 
 def put_in_list(settings, found):
-    """What is found becomes the scene's list, where it differs from what stands there."""
+    """Replaces the scene's list of messages if the new messages differ."""
     lines = [(one.severity, one.message, one.object_name, one.bone_name, one.code, " ".join(map(str, one.vertices))) for one in found]
     if lines != [tuple(getattr(entry, name) for name in COLUMNS) for entry in settings.findings]:
         settings.findings.clear()
@@ -45,7 +45,7 @@ def put_in_list(settings, found):
 
 
 def show(scene, findings_of):
-    """Puts what is found into the scene's list; and how long the search took."""
+    """Fills the scene's list of messages and stores how long the check took."""
     settings, began = scene.soft_body_format, time.monotonic()
     found = findings_of()
     put_in_list(settings, found)
@@ -54,13 +54,13 @@ def show(scene, findings_of):
 
 
 class SBFMT_OT_check(bpy.types.Operator):
-    """Look for what is wrong with the character, and list it"""
+    """Check the character and list what is wrong"""
 
     bl_idname = "sbfmt.check"
     bl_label = "Check"
     bl_options = {"REGISTER"}
 
-    @told
+    @report_exceptions
     def execute(self, context):
         found = show(context.scene, lambda: find(context))
         errors = len(found.errors)
@@ -105,44 +105,44 @@ class SBFMT_OT_select_finding(bpy.types.Operator):
         bpy.ops.mesh.select_mode(type="VERT")
 
 
-class SBFMT_OT_mend(bpy.types.Operator):
-    """Mend this, where there is one right answer, and check again"""
+class SBFMT_OT_repair(bpy.types.Operator):
+    """Repair this, if there is one right answer, and check again"""
 
-    bl_idname = "sbfmt.mend"
-    bl_label = "Mend"
+    bl_idname = "sbfmt.repair"
+    bl_label = "Repair"
     bl_options = {"REGISTER", "UNDO"}
 
-    index: IntProperty(options={"HIDDEN"}, description="Of the message; -1: all that can be mended")
+    index: IntProperty(options={"HIDDEN"}, description="Index of the message; -1: every message that has a repair")
 
     @classmethod
     def description(cls, context, properties):
         settings = context.scene.soft_body_format
         if 0 <= properties.index < len(settings.findings):
-            mend = mend_of(settings.findings[properties.index], settings.mends_files)
-            if mend is not None:
-                return f"{mend.label}, and check again"
-        return "Mend all that has one right answer, and check again"
+            repair = repair_of(settings.findings[properties.index], settings.mends_files)
+            if repair is not None:
+                return f"{repair.label}, and check again"
+        return "Repair everything that has one right answer, and check again"
 
-    @told
+    @report_exceptions
     def execute(self, context):
         settings, done = context.scene.soft_body_format, set()
         chosen = [one for index, one in enumerate(settings.findings) if self.index in (-1, index)]
         for finding in chosen:
-            mend = mend_of(finding, settings.mends_files)
-            if mend is None:
+            repair = repair_of(finding, settings.mends_files)
+            if repair is None:
                 continue
             source = context.scene.objects.get(finding.object_name)
-            what = (mend.label, finding.object_name, finding.bone_name)
-            if mend.act is None:
+            what = (repair.label, finding.object_name, finding.bone_name)
+            if repair.act is None:
                 settings.mends_files = True
             elif source is None or source.library is not None:
-                self.report({"WARNING"}, f"{finding.object_name} is not this file's to change: mend it where it is linked from")
+                self.report({"WARNING"}, f"{finding.object_name} is linked from another file: repair it in that file")
                 continue
             elif what not in done:
-                mend.act(source, finding.bone_name)
+                repair.act(source, finding.bone_name)
             done.add(what)
         if not done:
-            self.report({"INFO"}, "nothing of it has one right answer: see what the messages say")
+            self.report({"INFO"}, "no message has one right answer: see what the messages advise")
             return {"CANCELLED"}
         found = "; ".join(f"{name}: {label.lower()}" if name else label for label, name, _ in sorted(done))
         bpy.ops.sbfmt.check()
@@ -150,6 +150,6 @@ class SBFMT_OT_mend(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (SBFMT_OT_check, SBFMT_OT_select_finding, SBFMT_OT_mend)
+CLASSES = (SBFMT_OT_check, SBFMT_OT_select_finding, SBFMT_OT_repair)
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

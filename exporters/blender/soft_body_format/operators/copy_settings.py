@@ -1,4 +1,4 @@
-"""Settings of the active object or bone given to the selected ones, or to the other side of the body."""
+"""Copies settings of the active object or bone to the selected ones, or to the other side of the body."""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty
@@ -6,21 +6,21 @@ from bpy.props import BoolProperty, EnumProperty
 PARTS = {"ROLE": ("role", "simulation_only"), "MATERIAL": ("attributes", "own_values"),
          "COLLISION": ("particle_radius", "outer_thickness", "inner_thickness", "self_collision"),
          "PINS": ("pins", "active_pin"), "MAPS": ("weight_maps", "active_weight_map")}
-# About the bone itself and its Z axis, the other side turns the other way; along X it slides so.
+# The mirrored bone has the opposite sign for rotation about the bone and about its Z axis, and for sliding along X.
 TURNED = ("twist", "swing_y")
 
 
 def copy_group(source, target, names=None):
-    """Values of a property group, with groups and lists in it; ids stay each one's own."""
+    """Copies the values of a property group, including groups and lists in it. Does not copy ids."""
     for one in source.bl_rna.properties:
         name = one.identifier
         if name in ("rna_type", "name", "order") or name.endswith("identity") or names is not None and name not in names:
             continue
         if one.type == "COLLECTION":
-            ours = getattr(target, name)
-            ours.clear()
+            target_list = getattr(target, name)
+            target_list.clear()
             for entry in getattr(source, name):
-                copy_group(entry, ours.add())
+                copy_group(entry, target_list.add())
         elif one.type == "POINTER" and isinstance(getattr(source, name), bpy.types.PropertyGroup):
             copy_group(getattr(source, name), getattr(target, name))
         else:
@@ -28,7 +28,7 @@ def copy_group(source, target, names=None):
 
 
 def mirror_joint(joint):
-    """The limits as a bone of the other side has them, whose axes are mirrored as Blender's own symmetry makes them."""
+    """Mirrors the limits for a bone of the other side. Its axes are mirrored as Blender's Symmetrize mirrors them."""
     turned = TURNED if joint.kind == "spherical" else ("twist", ) if joint.axis != "X" else ()
     if joint.kind != "spherical" and joint.axis == "X":
         turned += ("slide", )
@@ -39,7 +39,7 @@ def mirror_joint(joint):
 
 
 class SBFMT_OT_copy_object(bpy.types.Operator):
-    """Give the selected objects what the active one has in these panels"""
+    """Copy the active object's settings in these panels to the selected objects"""
 
     bl_idname = "sbfmt.copy_object"
     bl_label = "Copy to selected"
@@ -68,7 +68,7 @@ class SBFMT_OT_copy_object(bpy.types.Operator):
 
 
 class SBFMT_OT_copy_bone(bpy.types.Operator):
-    """Give other bones the joint and material of the active one"""
+    """Copy the active bone's joint and material to other bones"""
 
     bl_idname = "sbfmt.copy_bone"
     bl_label = "Copy to selected"

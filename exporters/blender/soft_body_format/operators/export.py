@@ -12,11 +12,11 @@ from ..settings.build_settings import build_arguments
 from ..to_document import Options
 from ..whole import write_whole
 from .check_scene import put_in_list
-from .own_faults import told
+from .exception_reports import report_exceptions
 
 
 class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
-    """Write the character to one file: meshes, rig, soft bodies, pins, limits and gait"""
+    """Write the character to a file: meshes, rig, soft bodies, pins, limits and gait"""
 
     bl_idname = "export_scene.soft_body_format"
     bl_label = "Export soft body format"
@@ -25,11 +25,11 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
     filename_ext = ".sbf"
     check_extension = False
     filter_glob: StringProperty(default="*.sbf;*.sbfz;*.glb", options={"HIDDEN"})
-    selected_only: BoolProperty(name="Selected Objects Only", description="Leave out what is not selected", default=False)
-    collection: StringProperty(name="Collection", description="Only the objects of this collection; empty: all", default="")
+    selected_only: BoolProperty(name="Selected Objects Only", description="Export selected objects only", default=False)
+    collection: StringProperty(name="Collection", description="Export only the objects of this collection; empty: all", default="")
     apply_modifiers: BoolProperty(
         name="Apply Modifiers", default=True,
-        description="Export meshes as modifiers make them; armatures and simulations are left out in any case")
+        description="Export meshes with their modifiers applied; armature and simulation modifiers are never applied")
     textures: EnumProperty(
         name="Textures", default="COPY",
         items=(("COPY", "Copy", "Copy image files into a folder `textures` beside the file"),
@@ -53,7 +53,7 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
         layout.prop(self, "textures")
         layout.prop(self, "build")
 
-    @told
+    @report_exceptions
     def execute(self, context):
         findings = Findings()
         if self.collection and self.collection not in bpy.data.collections:

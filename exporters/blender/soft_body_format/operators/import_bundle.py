@@ -11,7 +11,7 @@ from ..findings import Findings
 from ..finishing import has_library
 from ..from_document import SceneMaker
 from ..sbfmt.document import from_xml
-from .own_faults import told
+from .exception_reports import report_exceptions
 
 
 def read_document(path):
@@ -36,7 +36,7 @@ class IMPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ImportHelper):
     filename_ext = ".sbf"
     filter_glob: StringProperty(default="*.sbf;*.sbfz;*.glb", options={"HIDDEN"})
 
-    @told
+    @report_exceptions
     def execute(self, context):
         findings = Findings()
         if context.mode != "OBJECT":

@@ -1,4 +1,4 @@
-"""Scene > Soft body format > Check > As I work: after the first check the list follows the scene, whenever it is left alone for a moment."""
+"""Scene > Soft body format > Check > As I work: after the first check, updates the list when the scene has not changed for a moment."""
 
 import time
 
@@ -8,42 +8,42 @@ from bpy.app.handlers import persistent
 from ..preview import handlers
 from .check_scene import find, show
 
-QUIET_S = 0.8
-MOST_S = 0.5  # of a check that is made unasked: a scene that takes longer is checked by the button alone
+IDLE_S = 0.8
+MAX_CHECK_S = 0.5  # slower scenes are checked by the button only
 
 
 class Live:
-    """What is known between two looks, and how many there were."""
+    """State kept between two checks; `count` is the number of checks."""
 
-    changed_at, checking, deaf_until, count = 0.0, False, 0.0, 0
+    changed_at, checking, ignored_until, count = 0.0, False, 0.0, 0
 
 
 @persistent
 def on_change(scene, depsgraph):
-    """Notes when it was; the check waits until nothing happens any more."""
+    """Stores the time of the change. The check waits until the changes stop."""
     settings = scene.soft_body_format
-    if Live.checking or time.monotonic() < Live.deaf_until or not settings.checks_live or not settings.is_checked or \
-            settings.check_time > MOST_S or handlers.running() is not None or not len(depsgraph.updates):
+    if Live.checking or time.monotonic() < Live.ignored_until or not settings.checks_live or not settings.is_checked or \
+            settings.check_time > MAX_CHECK_S or handlers.running() is not None or not len(depsgraph.updates):
         return
     Live.changed_at = time.monotonic()
-    if not bpy.app.timers.is_registered(look):
-        bpy.app.timers.register(look, first_interval=QUIET_S)
+    if not bpy.app.timers.is_registered(check_when_idle):
+        bpy.app.timers.register(check_when_idle, first_interval=IDLE_S)
 
 
-def look():
-    """A timer's call: checks, or says how much longer to wait."""
-    left = Live.changed_at + QUIET_S - time.monotonic()
+def check_when_idle():
+    """A timer's call: checks the scene, or returns how many seconds to wait."""
+    left = Live.changed_at + IDLE_S - time.monotonic()
     if left > 0:
         return left
     context = bpy.context
     if context.mode not in ("OBJECT", "POSE", "EDIT_MESH", "EDIT_ARMATURE"):  # a stroke may be under way
-        return QUIET_S
+        return IDLE_S
     Live.checking, Live.count = True, Live.count + 1
     try:
         show(context.scene, lambda: find(context))
-        context.view_layer.update()  # what the check itself touched is no change
+        context.view_layer.update()  # changes that the check itself makes do not count
     finally:
-        Live.checking, Live.deaf_until = False, time.monotonic() + 0.1
+        Live.checking, Live.ignored_until = False, time.monotonic() + 0.1
     return None
 
 
@@ -52,7 +52,7 @@ def register():
 
 
 def unregister():
-    if bpy.app.timers.is_registered(look):
-        bpy.app.timers.unregister(look)
+    if bpy.app.timers.is_registered(check_when_idle):
+        bpy.app.timers.unregister(check_when_idle)
     if on_change in bpy.app.handlers.depsgraph_update_post:
         bpy.app.handlers.depsgraph_update_post.remove(on_change)

@@ -10,7 +10,7 @@ from .working import WithLibrary
 
 
 def previewed_scene(operator, context):
-    """A generator as `build_in_steps`, that returns (Session, Stage) at the scene's current frame."""
+    """A generator like `build_in_steps` that returns (Session, Stage) at the scene's current frame."""
     clip = []
 
     def change(whole):

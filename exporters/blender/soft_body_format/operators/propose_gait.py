@@ -1,4 +1,4 @@
-"""Scene > Soft body format > Gait: which bones are legs, head and tail, and how far they step, guessed from the rig."""
+"""Scene > Soft body format > Gait: guesses from the rig which bones are legs, head and tail, and how far they step."""
 
 import bpy
 
@@ -6,15 +6,15 @@ from .. import sbfmt
 from ..findings import Findings
 from ..finishing import has_library
 from ..from_document.import_settings import fill_walk
-from ..space import WAYS
+from ..space import DIRECTIONS
 from ..to_document import NOTHING, Options
-from ..to_document.gaits import OFF_GROUND
+from ..to_document.gaits import GROUND_TOLERANCE
 from ..whole import write_whole
-from .own_faults import told
+from .exception_reports import report_exceptions
 
 
 def without_gait(context, findings):
-    """The scene's document as if nobody had said how it walks."""
+    """The scene's document without gait settings."""
     gait = context.scene.soft_body_format.gait
     used, gait.use = gait.use, False
     try:
@@ -28,7 +28,7 @@ def without_gait(context, findings):
 
 
 def armature_of(context, whole, body):
-    """The armature that has the bone of this id, and its bones' names by their ids."""
+    """The armature that has the bone of this id, and a dict from bone ids to bone names."""
     for one in context.scene.objects:
         if one.type == "ARMATURE":
             names = {whole.writer.skeleton.id(one, bone.name): bone.name for bone in one.data.bones}
@@ -38,7 +38,7 @@ def armature_of(context, whole, body):
 
 
 def placement(scene):
-    """What a proposal changes beside the panel of the gait, to be put back."""
+    """The settings outside the gait panel that a proposal changes, to restore them on failure."""
     settings = scene.soft_body_format
     hangs = [(one.data, bone.name, bone.soft_body_format.hangs_on) for one in scene.objects if one.type == "ARMATURE" for bone in one.data.bones]
     return settings.ahead, settings.ground, hangs
@@ -52,7 +52,7 @@ def put_back(scene, before):
 
 
 def placed(context, findings):
-    """The scene's document, with bones, ahead and the ground where a gait needs them; and what was changed for it, in words."""
+    """The scene's document, and notes of what was changed. Sets bone parents, forward direction and ground as a gait needs them."""
     settings, notes = context.scene.soft_body_format, []
     whole = without_gait(context, findings)
     if findings.errors:
@@ -63,7 +63,7 @@ def placed(context, findings):
         for identity, other in stance.hangs_on.items():
             armature, name = bones[identity]
             if context.scene.objects[armature].data.library is not None:
-                findings.error(f"{name} holds the skin where a leg ends and hangs on the root; it can't be hung on its leg in a linked armature: "
+                findings.error(f"{name} holds the skin where a leg ends, and its parent is the root; a linked armature's bone can't be moved to its leg: "
                                "make it local (Object > Relations > Make Local)", object_name=armature, bone_name=name)
                 return whole, notes
             context.scene.objects[armature].data.bones[name].soft_body_format.hangs_on = bones[other][1]
@@ -71,9 +71,9 @@ def placed(context, findings):
         whole = without_gait(context, Findings())
         stance = sbfmt.stand(whole.document)
     turned = stance.quarter_turns != 0
-    off = abs(stance.ground) > OFF_GROUND * stance.height
+    off = abs(stance.ground) > GROUND_TOLERANCE * stance.height
     if turned:
-        settings.ahead = WAYS[(WAYS.index(settings.ahead) + stance.quarter_turns) % len(WAYS)]
+        settings.ahead = DIRECTIONS[(DIRECTIONS.index(settings.ahead) + stance.quarter_turns) % len(DIRECTIONS)]
         notes.append(f"looks along {settings.ahead}")
     if off:
         settings.ground += stance.ground / whole.writer.space.unit_m
@@ -98,7 +98,7 @@ class SBFMT_OT_propose_gait(bpy.types.Operator):
             return False
         return True
 
-    @told
+    @report_exceptions
     def execute(self, context):
         findings, before = Findings(), placement(context.scene)
         whole, notes = placed(context, findings)
@@ -119,7 +119,7 @@ class SBFMT_OT_propose_gait(bpy.types.Operator):
 
     @staticmethod
     def refusal(context, whole, proposed):
-        """Why the panel is not filled, or nothing."""
+        """The reason why the panel is not filled, or None."""
         if not proposed.gaits:
             return "no legs are found: they come down to the ground on the left and the right of a character, each by bones of its own; " \
                 "turn it upright, or fill in the legs by hand"

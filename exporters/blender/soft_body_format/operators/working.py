@@ -1,21 +1,20 @@
-"""Operators whose work takes a while: in a window bit by bit, with progress and Escape; without one at a stroke."""
+"""Long operators. In a window they run in steps, show progress and stop at Escape. Without a window they run at once."""
 
 import time
 
 from .. import sbfmt
 from ..finishing import has_library
-from .own_faults import words_of
+from .exception_reports import words_of
 
-BIT_S = 0.05  # of work between two looks at the keyboard
+BIT_S = 0.05  # work between two checks for Escape
 
 
 class Refused(Exception):
-    """What an operator tells instead of doing its work."""
+    """The reason why an operator does not do its work."""
 
 
 class Working:
-    """`work` is a generator of (what it does, share of it that is done). It raises Refused with what to tell; closed, it must leave
-    everything as it was."""
+    """`work` is a generator of (step, fraction done). It raises Refused with a message. Closing it must restore everything."""
 
     generator = timer = None
 
@@ -50,7 +49,7 @@ class Working:
         return done
 
     def cancel(self, context):
-        """Blender ends it, as when its window closes."""
+        """Called when Blender ends the operator, for example when its window closes."""
         self.generator.close()
         self.end(context)
 
@@ -65,10 +64,10 @@ class Working:
     def go_on(self, context, seconds):
         until = time.monotonic() + seconds
         try:
-            for what, share in self.generator:
+            for what, fraction in self.generator:
                 if time.monotonic() > until:
-                    context.window_manager.progress_update(100 * share)
-                    context.workspace.status_text_set(f"{what} {share:.0%}. Escape cancels")
+                    context.window_manager.progress_update(100 * fraction)
+                    context.workspace.status_text_set(f"{what} {fraction:.0%}. Escape cancels")
                     return {"RUNNING_MODAL"}
         except Refused as refused:
             if str(refused):
@@ -84,7 +83,7 @@ class Working:
 
 
 class WithLibrary(Working):
-    """Work that only the compiled library can do; `instead` is the command that does it outside."""
+    """Work that needs the compiled library. `instead` is the command line that does the same."""
 
     instead = ""
 

@@ -1,1 +1,1 @@
-"""What is drawn over the model in the viewport."""
+"""Draws joint limits and the last build over the model in the viewport."""

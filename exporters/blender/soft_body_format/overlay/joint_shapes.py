@@ -1,7 +1,7 @@
-"""How a joint's limits look: cones and arcs as lines and triangles, in the joint's own frame.
+"""Shapes of joint limits: cones and arcs as lines and triangles, in the joint's own frame.
 
 +X is the axis of the twist; a ball joint's bone points along it. Coordinates are those of spec/sbf.md: swing is a rotation vector
-(0, y, z), twist an angle about X. Lengths are shares of the bone's."""
+(0, y, z), twist an angle about X. Lengths are fractions of the bone's length."""
 
 import math
 
@@ -12,7 +12,7 @@ CONE, TWIST, SWING_Y, SWING_Z, SLIDE = "cone", "twist", "swing_y", "swing_z", "s
 
 
 class Shape:
-    """Lines and filled triangles by what they stand for: {part: (n, 3) ends, or corners}."""
+    """Lines and filled triangles of each part: {part: (n, 3) line ends or triangle corners}."""
 
     def __init__(self):
         self.lines, self.triangles = {}, {}
@@ -32,15 +32,15 @@ class Shape:
         self.triangles[part] = numpy.concatenate([self.triangles[part], fan]) if part in self.triangles else fan
 
 
-def swung(y, z):
-    """Where +X points after the swing (y, z)."""
+def swing_direction(y, z):
+    """The direction of +X after the swing (y, z)."""
     angle = math.hypot(y, z)
     rate = math.sin(angle) / angle if angle > 1e-9 else 1.0
     return (math.cos(angle), rate * z, -rate * y)
 
 
 def rim(bounds):
-    """The swings at the border of what is allowed, going round; none where every swing is."""
+    """The swings on the boundary of the limits, in order; empty if every swing is allowed."""
     if not any(name in bounds for name in ("swing", SWING_Y, SWING_Z)):
         return []
     cone = bounds.get("swing", (0.0, math.pi))[1]
@@ -48,22 +48,22 @@ def rim(bounds):
     corners = [(y0, z0), (y1, z0), (y1, z1), (y0, z1)]
     points = [(a[0] + (b[0] - a[0]) * i / (2 * STEPS), a[1] + (b[1] - a[1]) * i / (2 * STEPS))
               for a, b in zip(corners, corners[1:] + corners[:1]) for i in range(2 * STEPS)]
-    if y0 <= 0 <= y1 and z0 <= 0 <= z1:  # else the box wins over the cone
+    if y0 <= 0 <= y1 and z0 <= 0 <= z1:  # without a cone the boundary is a box
         sizes = [max(math.hypot(*one), 1e-12) for one in points]
         points = [(y * min(1, cone / size), z * min(1, cone / size)) for (y, z), size in zip(points, sizes)]
     return points
 
 
-def arc(low, high, place):
-    """Points from one angle to the other by `place`, at most a full turn."""
+def arc(low, high, position):
+    """Points from one angle to the other by `position`, at most a full turn."""
     high = min(high, low + 2 * math.pi)
     count = max(2, 1 + math.ceil((high - low) / (math.pi / 4) * STEPS))
-    return [place(low + (high - low) * i / (count - 1)) for i in range(count)]
+    return [position(low + (high - low) * i / (count - 1)) for i in range(count)]
 
 
 def shape_of(kind, bounds, along=(1.0, 0.0, 0.0), slide_scale=1.0):
-    """Of a joint with `bounds` {coordinate: (least, most)}. `along` is where the bone points in the joint's frame; `slide_scale`
-    makes metres shares of its length."""
+    """The Shape of a joint with `bounds` {coordinate: (min, max)}. `along` is the bone's direction in the joint's frame. `slide_scale`
+    converts metres to fractions of the bone's length."""
     shape = Shape()
     if kind == "spherical":
         add_cone(shape, bounds)
@@ -81,21 +81,21 @@ def shape_of(kind, bounds, along=(1.0, 0.0, 0.0), slide_scale=1.0):
 
 
 def add_cone(shape, bounds):
-    points = [swung(*one) for one in rim(bounds)]
+    points = [swing_direction(*one) for one in rim(bounds)]
     if points:
         shape.add_line(CONE, points, closed=True)
         shape.add_fan(CONE, (0.0, 0.0, 0.0), points, closed=True)
         for index in range(0, len(points), STEPS):
             shape.add_line(CONE, [(0, 0, 0), points[index]])
-    for name, place in ((SWING_Y, lambda angle: swung(angle, 0.0)), (SWING_Z, lambda angle: swung(0.0, angle))):
+    for name, position in ((SWING_Y, lambda angle: swing_direction(angle, 0.0)), (SWING_Z, lambda angle: swing_direction(0.0, angle))):
         if name in bounds:
-            add_arc(shape, name, bounds[name], 0.0, 0.6, place)
+            add_arc(shape, name, bounds[name], 0.0, 0.6, position)
 
 
-def add_arc(shape, part, bound, at, radius, place):
+def add_arc(shape, part, bound, at, radius, position):
     """A filled arc about a point of the X axis."""
     middle = numpy.array((at, 0.0, 0.0))
-    points = [middle + radius * numpy.array(one) for one in arc(*bound, place)]
+    points = [middle + radius * numpy.array(one) for one in arc(*bound, position)]
     shape.add_line(part, points)
     shape.add_fan(part, middle, points)
     for end in (points[0], points[-1]):
@@ -103,7 +103,7 @@ def add_arc(shape, part, bound, at, radius, place):
 
 
 def add_turn(shape, bound, along):
-    """A hinge's arc: where the bone goes as it turns about X; about a bone that lies on X as a ball joint's twist."""
+    """A hinge's arc: the bone's path as it turns about X. A bone along X gets the arc of a ball joint's twist."""
     side = numpy.array((0.0, along[1], along[2]))
     size = float(numpy.linalg.norm(side))
     if size < 1e-3:
@@ -115,7 +115,7 @@ def add_turn(shape, bound, along):
 
 
 def measure(w, x, y, z):
-    """{coordinate: angle} of a rotation of the joint's frame against rest, as the runtime takes it apart."""
+    """{coordinate: angle} of a rotation of the joint's frame from rest, decomposed as the runtime does."""
     if w < 0:
         w, x, y, z = -w, -x, -y, -z
     size = math.hypot(w, x)
@@ -131,6 +131,6 @@ def measure(w, x, y, z):
     return {TWIST: twist, SWING_Y: swing_y * rate, SWING_Z: swing_z * rate, "swing": sine * rate}
 
 
-def is_within(found, bounds, slack=1e-3):
-    """Whether those angles keep the bounds."""
-    return all(low - slack <= found[name] <= high + slack for name, (low, high) in bounds.items() if name in found)
+def is_within(found, bounds, tolerance=1e-3):
+    """Whether the angles are within the bounds."""
+    return all(low - tolerance <= found[name] <= high + tolerance for name, (low, high) in bounds.items() if name in found)

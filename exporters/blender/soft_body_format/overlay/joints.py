@@ -1,4 +1,4 @@
-"""Joints drawn over armatures: a cone for the swing, arcs for twist and each axis, red where the pose breaks a limit."""
+"""Draws joint limits over armatures: a cone for swing, arcs for twist and each axis, red where the pose violates a limit."""
 
 import bpy
 import gpu
@@ -8,14 +8,14 @@ from mathutils import Matrix, Vector
 
 from ..findings import Findings
 from ..space import Space
-from ..to_document.armatures import hung_on
+from ..to_document.armatures import parent_in_file
 from ..to_document.rigid_parts import ABOUT, joint_limits_of
 from . import joint_shapes
 from .joint_shapes import CONE, SLIDE, SWING_Y, SWING_Z, TWIST
 from .view_drawing import ViewDrawing, flat_shader
 
 BROKEN, POINTER = "broken", "pointer"
-# The theme's colour of each part: (group of the theme, name, what stands in where a Blender has no such).
+# The theme's colour of each part: (group of the theme, name, colour for Blender versions without it).
 COLORS = {CONE: ("view_3d", "bone_pose_active", (0.55, 0.8, 1.0)), TWIST: ("user_interface", "axis_y", (0.55, 0.86, 0.0)),
           SWING_Y: ("user_interface", "axis_z", (0.17, 0.56, 1.0)), SWING_Z: ("user_interface", "axis_x", (1.0, 0.2, 0.32)),
           SLIDE: ("view_3d", "bone_pose", (0.31, 0.78, 1.0)), BROKEN: ("info", "info_error", (1.0, 0.15, 0.15)),
@@ -31,12 +31,12 @@ def color_of(part, alpha):
 
 
 def is_selected(pose):
-    """Blender 5 keeps it with the pose, before it was the bone's."""
+    """Whether the bone is selected. Blender 5 stores this in the pose bone; earlier versions store it in the bone."""
     return pose.select if hasattr(pose, "select") else pose.bone.select
 
 
 def bones_of(context, which):
-    """[(armature object, pose bone)] that are to be drawn."""
+    """[(armature object, pose bone)] to draw."""
     found = []
     for source in context.view_layer.objects:
         if source.type != "ARMATURE" or source.mode == "EDIT" or not source.visible_get(view_layer=context.view_layer):
@@ -49,8 +49,8 @@ def bones_of(context, which):
 
 
 def frame_at_rest(source, pose):
-    """Where the bone would be if it alone were at rest: what its joint's limits count from."""
-    bone, over = pose.bone, hung_on(pose.bone)
+    """The bone's matrix if only this bone were at rest. Its joint's limits are relative to it."""
+    bone, over = pose.bone, parent_in_file(pose.bone)
     if over is None:
         return source.matrix_world @ bone.matrix_local
     above = source.pose.bones[over.name]
@@ -58,7 +58,7 @@ def frame_at_rest(source, pose):
 
 
 def joint_shape(source, pose, unit_m):
-    """(Shape, its 4x4 in the world, whether the pose keeps the limits, where the bone points in the shape), or None."""
+    """(Shape, its 4x4 world matrix, whether the pose is within the limits, the bone's direction in the shape), or None."""
     limits = joint_limits_of(source, pose.bone, Findings())
     if limits is None or limits.kind == "fixed":
         return None
@@ -71,15 +71,15 @@ def joint_shape(source, pose, unit_m):
         return None
     rest = frame_at_rest(source, pose)
     size = pose.bone.length * source.matrix_world.median_scale
-    place = Matrix.Translation(rest.translation) @ (rest.to_quaternion().to_matrix() @ turn).to_4x4() @ Matrix.Scale(size, 4)
+    position = Matrix.Translation(rest.translation) @ (rest.to_quaternion().to_matrix() @ turn).to_4x4() @ Matrix.Scale(size, 4)
     off = rest.to_quaternion().inverted() @ (source.matrix_world @ pose.matrix).to_quaternion()
     off = (turn.inverted() @ off.to_matrix() @ turn).to_quaternion()
     within = joint_shapes.is_within(joint_shapes.measure(off.w, off.x, off.y, off.z), bounds)
-    return shape, place, within, off.to_matrix() @ along
+    return shape, position, within, off.to_matrix() @ along
 
 
 def collect(context):
-    """{part: (ends of lines, corners of triangles)} in the world, of all joints that are to be seen."""
+    """{part: (line ends, triangle corners)} in world space, of all joints to draw."""
     settings = context.scene.soft_body_format
     lines, triangles = {}, {}
     unit = Space.of_scene(context.scene).unit_m
@@ -87,8 +87,8 @@ def collect(context):
         made = joint_shape(source, pose, unit)
         if made is None:
             continue
-        shape, place, within, pointer = made
-        matrix = numpy.array(place)
+        shape, position, within, pointer = made
+        matrix = numpy.array(position)
         for found, kept in ((shape.lines, lines), (shape.triangles, triangles)):
             for part, points in found.items():
                 kept.setdefault(part if within else BROKEN, []).append(points @ matrix[:3, :3].T + matrix[:3, 3])

@@ -1,4 +1,4 @@
-"""Springs, lattices and pins of the last build, drawn over the model and coloured by kind."""
+"""Draws springs, lattices and pins of the last build over the model, coloured by kind."""
 
 import bpy
 import gpu
@@ -12,17 +12,17 @@ from .view_drawing import ViewDrawing, flat_shader
 COLORS = {"structural": (0.95, 0.85, 0.2, 0.5), "shear": (0.25, 0.8, 0.95, 0.3), "flexion": (0.75, 0.45, 0.95, 0.15),
           "internal": (0.95, 0.45, 0.2, 0.1), "cross_body": (0.3, 0.95, 0.4, 0.8), "lattice": (0.4, 0.75, 1.0, 0.2),
           "pins": (1.0, 0.15, 0.15, 0.35)}
-# What of it the panel shows together.
+# The kinds that each choice of the panel shows.
 PARTS = {"internal": "INSIDE", "lattice": "LATTICE", "pins": "PINS"}
 INSIDE = ("internal", "lattice", "pins")  # drawn through the surface
 EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 
-# By scene: what was built last. Gone when Blender closes: a build makes it anew.
+# The last build of each scene. It is not saved.
 _shown = {}
 
 
 class Structure:
-    """Each body's points, and which of them the lines of a kind join: {kind: [(body, indices)]}; for pins the points alone."""
+    """Points of each body, and line ends by kind: {kind: [(body, indices)]}. For pins the indices are single points."""
 
     def __init__(self, document, space):
         self.document, self.points, self.kinds = document, {}, {}
@@ -45,8 +45,8 @@ class Structure:
         for pins in level.pins:
             put("pins", pins.points)
 
-    def places(self, kind, session=None):
-        """(n, 3) places of a kind, where the session has them now if it plays this very build."""
+    def positions(self, kind, session=None):
+        """(n, 3) positions of a kind: the session's current ones if it plays this build, else those at rest."""
         plays = session is not None and session.built.document is self.document
         return numpy.concatenate([(session.level_points(body) if plays else self.points[body])[indices]
                                   for body, indices in self.kinds[kind]])
@@ -81,8 +81,8 @@ def draw():
     for kind in shown.kinds:
         if PARTS.get(kind, "SURFACE") not in scene.soft_body_format.show_parts:
             continue
-        places = shown.places(kind, running())
-        batch = batch_for_shader(shader, "POINTS" if kind == "pins" else "LINES", {"pos": places})
+        positions = shown.positions(kind, running())
+        batch = batch_for_shader(shader, "POINTS" if kind == "pins" else "LINES", {"pos": positions})
         shader.bind()
         shader.uniform_float("color", COLORS.get(kind, COLORS["internal"]))
         gpu.state.depth_test_set("NONE" if kind in INSIDE else "LESS_EQUAL")

@@ -1,4 +1,4 @@
-"""What is drawn over the 3D view, in every window; nothing in the background."""
+"""Adds drawing callbacks to the 3D view of every window. Does nothing if Blender runs in the background."""
 
 import bpy
 import gpu
@@ -21,6 +21,6 @@ class ViewDrawing:
 
 
 def flat_shader(polyline=False):
-    """Blender's own of one colour; until 4.0 its names began otherwise."""
+    """Blender's shader of one colour. Before 4.0 its name had another prefix."""
     name = "POLYLINE_UNIFORM_COLOR" if polyline else "UNIFORM_COLOR"
     return gpu.shader.from_builtin(f"3D_{name}" if bpy.app.version < (4, 0, 0) else name)

@@ -1,4 +1,4 @@
-"""Scene > Soft body format > What a build makes: here, in the preview and in an export; and what is drawn."""
+"""Scene > Soft body format > What a build makes: settings of builds, and what the overlay draws."""
 
 import bpy
 

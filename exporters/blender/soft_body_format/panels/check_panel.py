@@ -1,22 +1,22 @@
-"""Scene > Soft body format > Check and build: the messages, what they are about, and what mends them."""
+"""Scene > Soft body format > Check and build: the list of messages, with buttons that select and repair."""
 
 import bpy
 
-from ..mending import mend_of
+from ..repairs import repair_of
 from .scene_panels import ScenePanel
 
 
 class SBFMT_UL_findings(bpy.types.UIList):
-    """One message a line."""
+    """A list with one message per line."""
 
     ICONS = {"ERROR": "CANCEL", "WARNING": "ERROR", "INFO": "INFO"}
 
     def draw_item(self, context, layout, _data, item, _icon, _active_data, _active_name, index):
-        place = item.object_name + (f", {item.bone_name}" if item.bone_name else "")
-        layout.label(text=f"{place}: {item.message}" if place else item.message, icon=self.ICONS.get(item.severity, "DOT"))
-        if mend_of(item, context.scene.soft_body_format.mends_files) is not None:
-            layout.operator("sbfmt.mend", text="", icon="TOOL_SETTINGS", emboss=False).index = index
-        if place:
+        location = item.object_name + (f", {item.bone_name}" if item.bone_name else "")
+        layout.label(text=f"{location}: {item.message}" if location else item.message, icon=self.ICONS.get(item.severity, "DOT"))
+        if repair_of(item, context.scene.soft_body_format.mends_files) is not None:
+            layout.operator("sbfmt.repair", text="", icon="TOOL_SETTINGS", emboss=False).index = index
+        if location:
             layout.operator("sbfmt.select_finding", text="", icon="RESTRICT_SELECT_OFF", emboss=False).index = index
 
 
@@ -38,22 +38,22 @@ class SBFMT_PT_check(ScenePanel, bpy.types.Panel):
             row = layout.row(align=True)
             if finding.object_name:
                 row.operator("sbfmt.select_finding", icon="RESTRICT_SELECT_OFF").index = settings.active_finding
-            mend = mend_of(finding, settings.mends_files)
-            if mend is not None:
-                row.operator("sbfmt.mend", text=mend.label, icon="TOOL_SETTINGS").index = settings.active_finding
-        if sum(mend_of(one, settings.mends_files) is not None for one in settings.findings) > 1:
-            layout.operator("sbfmt.mend", text="Mend all that can be", icon="TOOL_SETTINGS").index = -1
+            repair = repair_of(finding, settings.mends_files)
+            if repair is not None:
+                row.operator("sbfmt.repair", text=repair.label, icon="TOOL_SETTINGS").index = settings.active_finding
+        if sum(repair_of(one, settings.mends_files) is not None for one in settings.findings) > 1:
+            layout.operator("sbfmt.repair", text="Repair all", icon="TOOL_SETTINGS").index = -1
         layout.prop(settings, "checks_live")
         layout.prop(settings, "mends_files")
 
 
 def wrapped(text, width_px):
-    """Blender's labels don't wrap. Letters of its font are some 6 pixels wide."""
+    """Wraps text, because Blender's labels don't. A letter of its font is about 6 pixels wide."""
     scale = bpy.context.preferences.system.ui_scale
-    most = max(20, int((width_px / scale - 40) / 6.2))
+    max_letters = max(20, int((width_px / scale - 40) / 6.2))
     lines = [""]
     for word in text.split():
-        if lines[-1] and len(lines[-1]) + 1 + len(word) > most:
+        if lines[-1] and len(lines[-1]) + 1 + len(word) > max_letters:
             lines.append("")
         lines[-1] += (" " if lines[-1] else "") + word
     return lines

@@ -1,4 +1,4 @@
-"""Lists of pins, legs and the like with buttons to add, remove and move: one operator pair for all of them."""
+"""Draws lists of pins, legs and so on, with buttons to add, remove and move entries. All lists share one operator."""
 
 import bpy
 from bpy.props import EnumProperty, StringProperty
@@ -43,7 +43,7 @@ class SBFMT_OT_list_edit(bpy.types.Operator):
 
 
 class SBFMT_UL_entries(bpy.types.UIList):
-    """One line an entry: the first of its names that says something."""
+    """One line for each entry: the first of its names that is not empty."""
 
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_name, _index):
         words = [getattr(item, name, "") for name in ("group", "root", "bone", "end", "attribute")]
@@ -51,7 +51,7 @@ class SBFMT_UL_entries(bpy.types.UIList):
 
 
 def draw_list(layout, owner, path, active):
-    """The list and its buttons."""
+    """Draws the list and its buttons."""
     name = path.rsplit(".", 1)[-1]
     row = layout.row()
     row.template_list("SBFMT_UL_entries", path, owner, name, owner, active, rows=3)

@@ -1,4 +1,4 @@
-"""What a body is made of, for the panels that ask it: of an object, of all sections, of one bone's section."""
+"""Draws the material settings in the panels of objects, of all sections and of one bone's section."""
 
 
 def draw_matter(layout, numbers):

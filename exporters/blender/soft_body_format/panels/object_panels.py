@@ -1,4 +1,4 @@
-"""Object > Soft body format: role, what it is made of, pins, painted attributes."""
+"""Object > Soft body format: role, material, pins and painted attributes."""
 
 import bpy
 
@@ -16,7 +16,7 @@ class ObjectPanel:
 
 
 class BodyPanel(ObjectPanel):
-    """Panels of what is soft."""
+    """Base class for panels of soft bodies."""
 
     bl_parent_id = "SBFMT_PT_object"
 

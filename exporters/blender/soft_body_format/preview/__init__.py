@@ -1,4 +1,4 @@
-"""The character played in the viewport: `session` runs it, `stage` shows it, `handlers` follow Blender's frames, files and undo."""
+"""Plays the character in the viewport: `session` runs it, `stage` shows it, `handlers` react to Blender's frames, files and undo."""
 
 from . import handlers
 

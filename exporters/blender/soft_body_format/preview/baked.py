@@ -1,4 +1,4 @@
-"""What bakes leave in the scene: Mesh Cache modifiers over point caches, or copies with keyed shapes. Cut and taken away again."""
+"""Results of bakes in the scene: Mesh Cache modifiers that read point caches, or copies with shape keys. Cuts and removes them."""
 
 import os
 
@@ -21,7 +21,7 @@ def key_name(frame):
 # ---- Point caches ----
 
 def add_modifier(source, path, start):
-    """Last of all: whatever other modifiers do, the points end where the bake has them."""
+    """Adds the modifier last, so that the points end at the baked positions."""
     found = source.modifiers.get(NAME) or source.modifiers.new(NAME, "MESH_CACHE")
     found.cache_format = "MDD" if path.endswith(".mdd") else "PC2"
     found.filepath = bpy.path.relpath(path) if bpy.data.filepath else path
@@ -48,8 +48,8 @@ def cut_modifier(modifier, start, end, rate):
 # ---- Copies ----
 
 def add_copies(context, stage, actors):
-    """Objects of their own for those actors, in the world, whose eyes are closed: {actor's source: object}. Those of an earlier bake
-    go."""
+    """Makes a new object for each actor, in world space, and hides the actor's own: {actor's source: object}. Removes the objects of
+    an earlier bake."""
     scene, layer = context.scene, context.view_layer
     meshes = rest_meshes(context, [scene.objects[actor.source] for actor in actors if stage.has_points(actor)])
     collection = copies.begin(scene, NAME)
@@ -64,16 +64,16 @@ def add_copies(context, stage, actors):
     return copies_of
 
 
-def add_keys(made, places, frames):
-    """A shape for each of the frames, in full at it and none at its neighbours."""
+def add_keys(made, positions, frames):
+    """Adds a shape key for each frame, with value 1 at the frame and 0 at the frames before and after."""
     made.shape_key_add(name="Basis", from_mix=False)
     for index, frame in enumerate(frames):
         block = made.shape_key_add(name=key_name(frame), from_mix=False)
-        block.data.foreach_set("co", numpy.ascontiguousarray(places[index], dtype=numpy.float32).ravel())
-        for place, value in ((index - 1, 0.0), (index + 1, 0.0), (index, 1.0)):
-            if 0 <= place < len(frames):
+        block.data.foreach_set("co", numpy.ascontiguousarray(positions[index], dtype=numpy.float32).ravel())
+        for key, value in ((index - 1, 0.0), (index + 1, 0.0), (index, 1.0)):
+            if 0 <= key < len(frames):
                 block.value = value
-                block.keyframe_insert("value", frame=frames[place])
+                block.keyframe_insert("value", frame=frames[key])
     for curves in curve_lists(made.data.shape_keys):
         for curve in curves:
             for point in curve.keyframe_points:
@@ -81,7 +81,7 @@ def add_keys(made, places, frames):
 
 
 def curve_lists(owner):
-    """The lists of F-curves that animate it: one before Blender 4.4, one a channel bag since."""
+    """The lists of F-curves that animate it: one list before Blender 4.4, one per channel bag since."""
     action = owner.animation_data.action if owner.animation_data is not None else None
     if action is None:
         return []
@@ -96,14 +96,14 @@ def baked_copies():
 
 
 def cut_keys(made, start, end):
-    """Takes away the shapes of other frames, with their curves."""
+    """Removes the shape keys of other frames, with their curves."""
     keys = made.data.shape_keys
     if keys is None:  # it plays a point cache
         return
-    gone = [block.name for block in keys.key_blocks if block.name.startswith(KEY) and not start <= int(block.name[len(KEY):]) <= end]
-    paths = {keys.key_blocks[name].path_from_id("value") for name in gone}
+    removed = [block.name for block in keys.key_blocks if block.name.startswith(KEY) and not start <= int(block.name[len(KEY):]) <= end]
+    paths = {keys.key_blocks[name].path_from_id("value") for name in removed}
     for curves in curve_lists(keys):
         for curve in [one for one in curves if one.data_path in paths]:
             curves.remove(curve)
-    for name in gone:
+    for name in removed:
         made.shape_key_remove(keys.key_blocks[name])

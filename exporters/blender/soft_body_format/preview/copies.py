@@ -1,6 +1,6 @@
-"""Collections of copies that stand for the artist's objects, whose eyes are closed meanwhile: what a preview shows and a bake leaves.
+"""Collections of copies that a preview or a bake shows in place of the user's objects, which are hidden meanwhile.
 
-Everything can be put back from the .blend alone: after an undo, or in a file that was saved by a Blender that broke down."""
+The .blend alone is enough to restore the scene: after an undo, or in a file saved before Blender crashed."""
 
 import json
 
@@ -11,7 +11,7 @@ COPY_OF = "soft_body_format_copy_of"
 
 
 def begin(scene, name):
-    """An empty collection; an earlier one of that name goes."""
+    """Makes an empty collection and removes an earlier one of that name."""
     strike(name)
     collection = bpy.data.collections.new(name)
     scene.collection.children.link(collection)
@@ -19,7 +19,7 @@ def begin(scene, name):
 
 
 def add(collection, made, source):
-    """`made` is a copy of the object of the name `source`; it is never exported."""
+    """Adds `made`, a copy of the object with the name `source`. Copies are never exported."""
     made.soft_body_format.role = "IGNORE"
     made[COPY_OF] = source
     collection.objects.link(made)
@@ -27,7 +27,7 @@ def add(collection, made, source):
 
 
 def hide_originals(collection, scene, layer, names):
-    """Closes the eyes of what is seen of those objects."""
+    """Hides those of the objects that are visible."""
     hidden = [name for name in names if name in scene.objects and not scene.objects[name].hide_get(view_layer=layer)]
     for name in hidden:
         scene.objects[name].hide_set(True, view_layer=layer)
@@ -35,7 +35,7 @@ def hide_originals(collection, scene, layer, names):
 
 
 def strike(name):
-    """Takes the copies away and opens the eyes again, whoever made them; says whether there were any."""
+    """Removes the copies and shows the hidden objects again. Returns whether there were copies."""
     collection = bpy.data.collections.get(name)
     if collection is None:
         return False

@@ -1,4 +1,4 @@
-"""The one preview that may run, and what it does when Blender changes frames, undoes, loads, saves or renders."""
+"""Holds the running preview, and reacts when Blender changes frames, undoes, loads, saves or renders."""
 
 import bpy
 from bpy.app.handlers import persistent
@@ -8,7 +8,7 @@ from . import stage as stages
 
 
 class Running:
-    """The preview that runs: its session and its stage; None where there is none."""
+    """The session and the stage of the running preview, or None."""
 
     session = stage = None
     rendering = baking = False
@@ -20,7 +20,7 @@ def running():
 
 
 def start(context, session, stage):
-    """Takes the place of a preview that runs."""
+    """Starts a preview; ends one that is running."""
     stop()
     stage.set(context)
     Running.session, Running.stage = session, stage
@@ -28,7 +28,7 @@ def start(context, session, stage):
 
 
 def stop():
-    """Frees the runtime, and puts the scene back; says whether there was anything to put back."""
+    """Frees the runtime and restores the scene. Returns whether there was anything to restore."""
     session, Running.session, Running.stage = Running.session, None, None
     if session is not None:
         session.close()
@@ -36,7 +36,7 @@ def stop():
 
 
 def show():
-    """The copies as the session stands."""
+    """Updates the copies from the session."""
     session, stage = Running.session, Running.stage
     for actor in stage.actors:
         if actor.copy:
@@ -50,7 +50,7 @@ def on_frame(scene, _depsgraph=None):
     session = Running.session
     if session is None or Running.rendering or Running.baking or scene.name != session.scene_name:
         return
-    if not Running.stage.is_whole():
+    if not Running.stage.is_complete():
         stop()
         return
     session.go_to(scene, scene.frame_current)
@@ -59,10 +59,10 @@ def on_frame(scene, _depsgraph=None):
 
 @persistent
 def on_history(*_):
-    """Undo and redo bring back scenes of another moment: with copies or without."""
+    """Undo and redo restore an earlier scene, with copies or without."""
     if Running.session is None:
         stages.strike()
-    elif Running.stage.is_whole():
+    elif Running.stage.is_complete():
         show()
     else:
         stop()
@@ -70,7 +70,7 @@ def on_history(*_):
 
 @persistent
 def on_load_pre(*_):
-    """The scene goes away, and what was built of it."""
+    """Ends the preview and drops the last build, because another file replaces the scene."""
     if Running.session is not None:
         Running.session.close()
     Running.session = Running.stage = None
@@ -84,7 +84,7 @@ def on_load_post(*_):
 
 @persistent
 def on_save_pre(*_):
-    """Copies are not saved."""
+    """Removes the copies before a save."""
     if Running.session is not None:
         stages.strike()
 

@@ -1,4 +1,4 @@
-"""Point caches: the places of the same points in every frame, as .pc2 (little-endian, by frames) or .mdd (big-endian, by seconds)."""
+"""Point cache files: positions of points in every frame, as .pc2 (little-endian, by frames) or .mdd (big-endian, by seconds)."""
 
 import os
 import struct
@@ -10,7 +10,7 @@ MDD_HEADER = struct.Struct(">ii")        # samples, points
 
 
 class CacheWriter:
-    """Written beside its path, and put there by `close` when all frames are in; `drop` leaves what was there."""
+    """Writes a temporary file beside the path. `close` moves it there when all frames are in; `drop` deletes it."""
 
     def __init__(self, path, points, samples, start, rate):
         self.path, self.temporary, self.points = path, f"{path}.unfinished", points
@@ -26,9 +26,9 @@ class CacheWriter:
             self.drop()
             raise
 
-    def write(self, places):
-        """One frame: an (n, 3) array."""
-        self.file.write(numpy.ascontiguousarray(places).astype(">f4" if self.is_mdd else "<f4").tobytes())
+    def write(self, positions):
+        """Writes one frame: an (n, 3) array."""
+        self.file.write(numpy.ascontiguousarray(positions).astype(">f4" if self.is_mdd else "<f4").tobytes())
 
     def close(self):
         self.file.close()
@@ -41,7 +41,7 @@ class CacheWriter:
 
 
 def read_cache(path):
-    """(samples, points, 3) places."""
+    """The positions as a (samples, points, 3) array."""
     with open(path, "rb") as file:
         data = file.read()
     if path.endswith(".mdd"):
@@ -50,18 +50,18 @@ def read_cache(path):
     else:
         magic, _, points, _, _, samples = PC2_HEADER.unpack_from(data)
         if magic != b"POINTCACHE2\0":
-            raise ValueError(f"{path} is no point cache")
+            raise ValueError(f"{path} is not a point cache")
         found = numpy.frombuffer(data, dtype="<f4", offset=PC2_HEADER.size)
     return found[:3 * samples * points].reshape(samples, points, 3)
 
 
 def cut_cache(path, new_path, first, count, start, rate):
-    """A cache with `count` of the samples from `first` on."""
+    """Writes a cache with `count` samples, starting at sample `first`."""
     frames = read_cache(path)[first:first + count]
     writer = CacheWriter(new_path, frames.shape[1], len(frames), start, rate)
     try:
-        for places in frames:
-            writer.write(places)
+        for positions in frames:
+            writer.write(positions)
     except BaseException:
         writer.drop()
         raise

@@ -1,4 +1,4 @@
-"""One preview: the runtime's world, which frame it stands at, and what drives it."""
+"""A preview's simulation: the runtime's world, its current frame, and its controls."""
 
 import math
 
@@ -9,12 +9,12 @@ from ..sbfmt import runtime
 from ..space import Space, frame_rate
 from .walk_path import Walker, path_of
 
-JUMP = 10  # frames: from so many on a step ahead begins anew, as Blender's soft body does
-BOTTOMLESS_M = 1e4
+JUMP = 10  # frames: a longer step restarts the simulation, as in Blender's soft body
+NO_GROUND_M = 1e4
 
 
 class Session:
-    """Plays a Built. It owns the runtime's world, and lets go of it in `close`."""
+    """Plays a Built. Owns the runtime's world; `close` frees it."""
 
     def __init__(self, context, built, whole, frame, clip=None):
         scene = context.scene
@@ -49,7 +49,7 @@ class Session:
     def make_ground(self, context, settings):
         height = settings.ground_height * self.space.unit_m
         if settings.ground == "NONE":
-            return runtime.flat(-BOTTOMLESS_M)
+            return runtime.flat(-NO_GROUND_M)
         if settings.ground == "OBJECT" and settings.ground_object is not None:
             return ground_of(settings.ground_object, self.space, context.evaluated_depsgraph_get(), height)
         return runtime.flat(height)
@@ -65,7 +65,7 @@ class Session:
             start = self.walker.path.at(0.0)
             cosine, sine = math.cos(heading), math.sin(heading)
             start = start - (cosine * head[0] + sine * head[2], cosine * head[2] - sine * head[0])
-        # Who walks stands on the ground; everything else begins where it was modelled.
+        # A walking character starts on the ground; others start where they were modelled.
         high = 0.0 if gait is not None and settings.ground != "NONE" else -self.ground.height_at(*start)
         self.character = self.world.add(self.model, (start[0], high, start[1]), heading)
         self.frame = frame
@@ -79,7 +79,7 @@ class Session:
         self.world.close()
 
     def state(self):
-        """In a line, for the panel."""
+        """A one-line summary for the panel."""
         words = [f"Frame {self.frame}"]
         if self.body is not None:
             words.append(f"{self.character.distance:.2f} m walked")
@@ -92,7 +92,7 @@ class Session:
     # ---- Time ----
 
     def go_to(self, scene, frame):
-        """A few frames ahead are stepped; anything else begins anew at that frame."""
+        """Steps to the frame if it is a few frames ahead; otherwise restarts the simulation at that frame."""
         ahead = frame - self.frame
         if ahead == 0:
             return
@@ -115,19 +115,19 @@ class Session:
             self.character.play(self.clip, start=max(0.0, (frame - scene.frame_start) / frame_rate(scene)))
 
     def step(self, scene):
-        """A frame ahead, with the speeds that hold now."""
+        """Steps one frame with the current speeds."""
         settings = scene.soft_body_format.preview
         if settings.drive == "WALK":
             self.character.drive(settings.speed, settings.sideways, settings.turn)
         elif settings.drive == "CURVE" and self.walker is not None and self.body is not None:
-            forward, turn = self.walker.drive(*self.place(), max(settings.speed, 0.0))
+            forward, turn = self.walker.drive(*self.ground_position(), max(settings.speed, 0.0))
             self.character.drive(forward, 0.0, turn)
         else:
             self.character.drive()
         self.world.step(1 / frame_rate(scene))
 
-    def place(self):
-        """Where on the ground the body bone is, and which way it faces."""
+    def ground_position(self):
+        """The body bone's position on the ground, and its heading."""
         bone = self.character.bones(self.body + 1)[self.body]
         origin = self.character.origin
         forward = turned(bone.rotation, turned(conjugate(self.built.document.bones[self.body].rotation), (0.0, 0.0, 1.0)))
@@ -136,19 +136,19 @@ class Session:
     # ---- What is seen ----
 
     def points(self, actor):
-        """Of an actor, in Blender's world: an (n, 3) array."""
+        """The points of an actor in Blender's world space: an (n, 3) array."""
         found = self.character.skin(actor.index) if actor.kind == "skin" else self.character.surface(actor.index)
         return self.in_scene(found)
 
     def level_points(self, body):
-        """Of a soft body's simulated level, likewise."""
+        """The points of a soft body's simulated level in Blender's world space: an (n, 3) array."""
         return self.in_scene(self.character.points(body))
 
     def in_scene(self, found):
         return self.space.points_back(numpy.frombuffer(found, dtype=numpy.float32).reshape(-1, 3) + numpy.array(self.character.origin))
 
     def bone_frames(self, armature):
-        """{bone name: 4x4 in Blender's world}."""
+        """{bone name: 4x4 matrix in Blender's world space}."""
         bones, origin = self.character.bones(len(self.number_of_bone)), self.character.origin
         frames = {}
         for name, number in self.bones.get(armature, ()):
@@ -162,15 +162,15 @@ def conjugate(q):
 
 
 def turned(q, v):
-    """A vector by a rotation x, y, z, w."""
+    """A vector rotated by a quaternion x, y, z, w."""
     x, y, z, w = q
     u = numpy.array((x, y, z))
     v = numpy.array(v)
     return v + 2 * numpy.cross(u, numpy.cross(u, v) + w * v)
 
 
-def ground_of(source, space, depsgraph, otherwise_m):
-    """A mesh object's triangles, as modifiers make them."""
+def ground_of(source, space, depsgraph, fallback_m):
+    """A mesh object's triangles with modifiers applied, as the runtime's ground."""
     evaluated = source.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
     try:
@@ -181,4 +181,4 @@ def ground_of(source, space, depsgraph, otherwise_m):
         mesh.loop_triangles.foreach_get("vertices", triangles)
     finally:
         evaluated.to_mesh_clear()
-    return runtime.GroundMesh(space.points(points.reshape(-1, 3), source.matrix_world).ravel(), triangles.tolist(), otherwise_m)
+    return runtime.GroundMesh(space.points(points.reshape(-1, 3), source.matrix_world).ravel(), triangles.tolist(), fallback_m)

@@ -1,7 +1,7 @@
-"""What a preview shows: copies of the character's meshes and armature in a collection of their own.
+"""The visible part of a preview: copies of the character's meshes and armature in a collection.
 
-The artist's objects stay as they are, but for the eye in the outliner, which is closed while their copies are seen. Copies are never
-rendered, exported or selected."""
+The user's objects do not change; they are only hidden while their copies are shown. Copies are never rendered, exported or
+selected."""
 
 from dataclasses import dataclass
 
@@ -20,8 +20,8 @@ NAME = "Soft body preview"
 
 @dataclass
 class Actor:
-    """A mesh that is moved: which of the asset's parts moves it, and the names of its object and of the copy. What a collection
-    instance shows is no object of the scene; its owner is the instance."""
+    """A mesh that the preview moves: the part of the asset that moves it, and the names of its object and its copy. A mesh inside a
+    collection instance is no object of the scene; its owner is the instance."""
 
     source: str
     owner: str
@@ -39,7 +39,7 @@ def collection_of():
 
 
 def actors_of(whole, document):
-    """Which part of the built document moves each mesh: its render mesh, or the surface of a body that is not rendered."""
+    """Finds the part of the built document that moves each mesh: its render mesh, or the surface of a body without one."""
     meshes = {one.id: index for index, one in enumerate(document.render_meshes)}
     bodies = {one.id: index for index, one in enumerate(document.soft_bodies)}
     owners = whole.writer.stand_ins.owners if whole.writer.stand_ins is not None else {}
@@ -53,7 +53,7 @@ def actors_of(whole, document):
 
 
 def rest_meshes(context, sources):
-    """A mesh for each of those objects: at rest, modifiers evaluated as an export does, in the world."""
+    """The rest mesh of each object in world space, with modifiers evaluated as in an export."""
     made = {}
     with at_rest(list(context.view_layer.objects), context.view_layer), instances_realized(sources, context.view_layer):
         depsgraph = context.evaluated_depsgraph_get()
@@ -68,14 +68,14 @@ def rest_meshes(context, sources):
 
 
 class Stage:
-    """The copies of one preview, known by name: Blender's pointers do not outlive an undo."""
+    """The copies of one preview, stored by name because an undo invalidates Blender's pointers."""
 
     def __init__(self, scene, actors, armatures, document):
         self.scene_name, self.actors, self.document = scene.name, actors, document
         self.armatures = {name: "" for name in armatures}
 
     def set(self, context):
-        """Makes the copies, and closes the eyes of what they stand for."""
+        """Makes the copies and hides the objects that they replace."""
         strike()  # so that what an earlier preview hid is evaluated
         scene = bpy.data.scenes[self.scene_name]
         sources = [scene.objects[actor.source] for actor in self.actors if actor.is_own and actor.source in scene.objects]
@@ -92,7 +92,7 @@ class Stage:
         copies.hide_originals(collection, scene, context.view_layer, sorted({actor.owner for actor in self.actors} | set(self.armatures)))
 
     def mesh_of(self, actor, space):
-        """A mesh in the world as the document has it."""
+        """The document's mesh in world space."""
         record = (self.document.render_meshes if actor.kind == "skin" else self.document.soft_bodies)[actor.index]
         mesh, corners = make_mesh(actor.source, record.mesh if actor.kind == "skin" else record.surface, space)
         names = {one.id: one.name for one in self.document.materials}
@@ -104,7 +104,7 @@ class Stage:
         return mesh
 
     def has_points(self, actor):
-        """Whether the actor's object is a mesh of the scene, whose vertices can be moved: no instance's, no curve."""
+        """Whether the actor's object is a mesh of the scene with vertices to move, and not an instance or a curve."""
         scene = bpy.data.scenes[self.scene_name]
         return actor.is_own and actor.source in scene.objects and scene.objects[actor.source].type == "MESH"
 
@@ -115,7 +115,7 @@ class Stage:
         return copies.add(collection, made, source).name
 
     def put_armature(self, source, collection):
-        """A pose of its own over the same bones, free of what else poses them."""
+        """Copies the armature with the same bones and an independent pose."""
         made = source.copy()
         world = source.matrix_world.copy()
         made.animation_data_clear()
@@ -129,8 +129,8 @@ class Stage:
         made.matrix_world = world
         return self.put(made, collection, source.name)
 
-    def is_whole(self):
-        """Whether undo, a file or the artist has taken nothing of it away."""
+    def is_complete(self):
+        """Whether all copies still exist. Undo, loading or the user may have removed some."""
         return collection_of() is not None and bpy.data.scenes.get(self.scene_name) is not None and \
             all(actor.copy in bpy.data.objects for actor in self.actors if actor.copy) and \
             all(name in bpy.data.objects for name in self.armatures.values() if name)
@@ -161,5 +161,5 @@ class Stage:
 
 
 def strike():
-    """Takes what a preview shows away; says whether there was anything."""
+    """Removes a preview's copies. Returns whether there were any."""
     return copies.strike(NAME)

@@ -1,4 +1,4 @@
-"""A way over the ground, and how to walk along it: the speeds that lead to a point some way ahead ("pure pursuit").
+"""A path on the ground, and speeds that follow it by steering to a point ahead on the path ("pure pursuit").
 
 Ground coordinates are asset space's (x, z) in metres; a heading of 0 faces +z and grows to the left, towards +x, as the runtime's."""
 
@@ -7,7 +7,7 @@ import math
 import bpy
 import numpy
 
-GAIN, MOST_TURN = 2.5, 2.5  # 1/s, rad/s
+GAIN, MAX_TURN = 2.5, 2.5  # 1/s, rad/s
 
 
 def wrapped(angle):
@@ -15,7 +15,7 @@ def wrapped(angle):
 
 
 class WalkPath:
-    """A line of points, closed where it leads back to its beginning."""
+    """A polyline. A closed one ends at its first point."""
 
     def __init__(self, points, closed):
         points = numpy.asarray(points, dtype=float).reshape(-1, 2)
@@ -42,55 +42,55 @@ class WalkPath:
 
 
 class Walker:
-    """How far along the path somebody is, and where to next."""
+    """Follows a path: stores the distance along it, and steers to the next point."""
 
     def __init__(self, path, size_m):
-        self.path, self.size_m, self.passed = path, size_m, 0.0
+        self.path, self.size_m, self.pass_name = path, size_m, 0.0
 
     def begin(self):
-        self.passed = 0.0
+        self.pass_name = 0.0
 
-    def drive(self, place, heading, speed):
-        """(forward, turn) for somebody who stands there; zeros at the end of the path."""
+    def drive(self, position, heading, speed):
+        """(forward speed, turn rate) for a character at `position`; zeros at the end of the path."""
         window = max(self.size_m, 2 * speed / 10)
-        near = self.passed + numpy.linspace(0, window, 33)
+        near = self.pass_name + numpy.linspace(0, window, 33)
         if not self.path.closed:
             near = numpy.minimum(near, self.path.length)
-        gaps = [float(numpy.linalg.norm(self.path.at(one) - place)) for one in near]
-        self.passed = float(near[int(numpy.argmin(gaps))])
-        if not self.path.closed and self.path.length - self.passed < 0.05 * self.size_m:
+        gaps = [float(numpy.linalg.norm(self.path.at(one) - position)) for one in near]
+        self.pass_name = float(near[int(numpy.argmin(gaps))])
+        if not self.path.closed and self.path.length - self.pass_name < 0.05 * self.size_m:
             return 0.0, 0.0
-        target = self.path.at(self.passed + max(0.4 * self.size_m, 0.5 * speed))
-        to = target - place
+        target = self.path.at(self.pass_name + max(0.4 * self.size_m, 0.5 * speed))
+        to = target - position
         off = wrapped(math.atan2(to[0], to[1]) - heading)
-        return speed * max(0.1, math.cos(off)), max(-MOST_TURN, min(MOST_TURN, GAIN * off))
+        return speed * max(0.1, math.cos(off)), max(-MAX_TURN, min(MAX_TURN, GAIN * off))
 
 
 def path_of(curve, space, depsgraph):
-    """The first spline of a curve object, as its resolution draws it, seen from above; None where it is no line."""
+    """The first spline of a curve object at its resolution, seen from above; None if it is not a line."""
     data = curve.data.copy()
     data.bevel_depth = data.extrude = 0
     data.bevel_object = None
-    lone = bpy.data.objects.new(curve.name, data)
+    temporary = bpy.data.objects.new(curve.name, data)
     try:
-        mesh = lone.to_mesh()
-        places = [vertex.co.copy() for vertex in mesh.vertices]
+        mesh = temporary.to_mesh()
+        positions = [vertex.co.copy() for vertex in mesh.vertices]
         edges = [tuple(edge.vertices) for edge in mesh.edges]
-        lone.to_mesh_clear()
+        temporary.to_mesh_clear()
     finally:
-        bpy.data.objects.remove(lone)
+        bpy.data.objects.remove(temporary)
         bpy.data.curves.remove(data)
-    order, closed = chain(edges, len(places))
+    order, closed = chain(edges, len(positions))
     if len(order) < 2:
         return None
     world = curve.evaluated_get(depsgraph).matrix_world
-    points = [space.point(world @ places[index]) for index in order]
+    points = [space.point(world @ positions[index]) for index in order]
     path = WalkPath([(x, z) for x, _, z in points], closed)
     return path if path.length > 0 else None
 
 
 def chain(edges, count):
-    """The vertices of the first line of edges, in order, and whether it is closed."""
+    """The vertices of the first chain of edges, in order, and whether the chain is closed."""
     beside = {}
     for one, other in edges:
         beside.setdefault(one, []).append(other)

@@ -1,5 +1,5 @@
-"""What an artist sets beyond Blender's own: properties of objects, bones and scenes, and what an import remembers with materials
-and images. They save with the .blend, undo and copy."""
+"""Properties that the add-on adds to objects, bones and scenes, and ids that an import stores with materials and images. Blender
+saves, undoes and copies them."""
 
 import bpy
 from bpy.props import PointerProperty

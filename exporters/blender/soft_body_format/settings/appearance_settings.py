@@ -1,4 +1,4 @@
-"""What materials and images remember of the file they were imported from. No panel shows it."""
+"""Properties of materials and images that identify them in the file they were imported from. No panel shows them."""
 
 import bpy
 from bpy.props import StringProperty

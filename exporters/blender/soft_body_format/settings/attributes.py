@@ -6,7 +6,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty
 from ..sbfmt.document.material_presets import MATERIALS
 
 CUSTOM = "CUSTOM"
-# What a body without a modulus of its own gets: the schema's defaults.
+# The schema's defaults, for bodies without a modulus.
 LAYER_FIELDS = ("area_density", "thickness", "bending_stiffness")
 
 
@@ -27,15 +27,15 @@ def apply_preset(self, _context):
 
 
 class SBFMT_PG_attributes(bpy.types.PropertyGroup):
-    """Of one body; names and meanings are those of `attributes` in spec/sbf.md."""
+    """Attributes of one body, with the names and meanings of `attributes` in spec/sbf.md."""
 
     preset: EnumProperty(name="Material", items=list(preset_items()), default=CUSTOM, update=apply_preset,
-                         description="Fills the numbers below; change them as you like afterwards")
+                         description="Fills in the numbers below, which can be changed afterwards")
     layer: BoolProperty(name="Layer", default=False,
                         description="A sheet or bag of cloth, with mass per area and thickness, even where it is closed")
     density: FloatProperty(name="Density (kg/m³)", default=1000, min=1e-3, soft_max=10000,
                            description="Of the matter inside")
-    mass: FloatProperty(name="Mass (kg)", default=0, min=0, soft_max=1000, description="Of the whole body; 0: from the density")
+    mass: FloatProperty(name="Mass (kg)", default=0, min=0, soft_max=1000, description="Mass of the whole body; 0: from the density")
     area_density: FloatProperty(name="Mass per area (kg/m²)", default=0.15, min=1e-6, soft_max=10, precision=4,
                                 description="Of a layer")
     thickness: FloatProperty(name="Thickness (m)", default=0.001, min=1e-6, soft_max=0.1, precision=5,
@@ -45,26 +45,26 @@ class SBFMT_PG_attributes(bpy.types.PropertyGroup):
     young_modulus: FloatProperty(name="Young's modulus (Pa)", default=80000, min=1, soft_max=1e8, step=100000, precision=0,
                                  description="Stiffness: jelly 3,000, flesh 20,000, rubber 1,200,000")
     poisson_ratio: FloatProperty(name="Poisson's ratio", default=0.4, min=-0.99, max=0.499, soft_min=0, precision=3,
-                                 description="How much it gets thinner when pulled; bodies of springs show a quarter")
+                                 description="Sideways contraction when stretched; bodies of springs always behave like 0.25")
     damping_ratio: FloatProperty(name="Damping ratio", default=0.2, min=0, soft_max=1,
-                                 description="At the body's lowest mode: 0 swings for ever, 1 not at all")
+                                 description="Damping of the body's lowest mode: 0 oscillates forever, 1 does not oscillate")
     friction: FloatProperty(name="Friction", default=0.6, min=0, soft_max=2, description="Coulomb coefficient")
-    restitution: FloatProperty(name="Restitution", default=0, min=0, max=1, description="Share of the speed that bounces back")
+    restitution: FloatProperty(name="Restitution", default=0, min=0, max=1, description="Fraction of the speed kept in a bounce")
     media_friction: FloatProperty(name="Media friction (1/s)", default=0, min=0, soft_max=10,
-                                  description="Rate at which speed against the air is lost")
+                                  description="Rate of slowing down relative to the air")
     gravity_scale: FloatProperty(name="Gravity", default=1, soft_min=-1, soft_max=2, description="Factor on gravity")
     pressure_mode: EnumProperty(name="Pressure", default="none", items=(
         ("none", "None", "Nothing inside"), ("gas", "Gas", "Pressure times volume stays the same"),
         ("volume", "Keep volume", "The volume stays the same")))
     pressure: FloatProperty(name="Pressure (Pa)", default=0, soft_min=0, soft_max=10000,
-                            description="Of the gas inside above the outside, at rest")
+                            description="Excess pressure of the gas inside, at rest")
     yields: BoolProperty(name="Yields", default=False, description="Keeps a dent")
-    yield_strain: FloatProperty(name="Yield strain", default=0.2, min=1e-4, soft_max=1, description="Beyond it the shape flows")
+    yield_strain: FloatProperty(name="Yield strain", default=0.2, min=1e-4, soft_max=1, description="Strain above which the shape flows")
     yield_flow: FloatProperty(name="Flow (1/s)", default=5, min=0, soft_max=100, description="Rate of that flow")
-    tears: BoolProperty(name="Tears", default=False, description="Comes apart where it is stretched too far")
-    tear_strain: FloatProperty(name="Tear strain", default=1, min=1e-4, soft_max=5, description="Stretch beyond which it tears")
+    tears: BoolProperty(name="Tears", default=False, description="Tears where it is stretched too far")
+    tear_strain: FloatProperty(name="Tear strain", default=1, min=1e-4, soft_max=5, description="Strain above which it tears")
     sag_free: BoolProperty(name="Bears its own weight", default=False,
-                           description="Rests in the shape you modelled instead of sinking below it")
+                           description="Rests in the modelled shape instead of sagging below it")
 
 
 FIELDS = ("density", "mass", "young_modulus", "poisson_ratio", "damping_ratio", "friction", "restitution", "media_friction",
@@ -72,7 +72,7 @@ FIELDS = ("density", "mass", "young_modulus", "poisson_ratio", "damping_ratio", 
 
 
 def fill_attributes(record, settings):
-    """The panel's numbers into a document's `attributes`."""
+    """Copies the panel's numbers to a document's `attributes`."""
     for name in FIELDS:
         setattr(record, name, getattr(settings, name))
     if settings.layer:
@@ -87,7 +87,7 @@ def fill_attributes(record, settings):
 
 
 def read_attributes(settings, record):
-    """The other way round, as import does."""
+    """Copies a document's `attributes` to the panel's numbers, for an import."""
     for name in FIELDS:
         setattr(settings, name, getattr(record, name))
     settings.layer = record.area_density > 0

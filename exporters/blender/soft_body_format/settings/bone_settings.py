@@ -1,4 +1,4 @@
-"""What the panel of a bone holds: the joint to the bone above it, and what it weighs."""
+"""Settings of the bone panel: the joint to the parent bone, and the mass."""
 
 import math
 
@@ -8,11 +8,11 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 from .attributes import SBFMT_PG_attributes
 
 KINDS = (
-    ("NONE", "None", "As the rig's constraints and IK limits say, if they do"),
-    ("spherical", "Ball", "Turns about all axes, inside a cone or within ranges"),
+    ("NONE", "None", "From the rig's constraints and IK limits, if there are any"),
+    ("spherical", "Ball", "Rotates about all axes, inside a cone or within ranges"),
     ("revolute", "Hinge", "Turns about one axis"),
     ("prismatic", "Slider", "Slides along one axis"),
-    ("cylindrical", "Cylinder", "Turns about an axis and slides along it"),
+    ("cylindrical", "Cylinder", "Rotates about an axis and slides along it"),
     ("fixed", "Fixed", "Does not move"),
 )
 
@@ -27,23 +27,23 @@ class SBFMT_PG_joint(bpy.types.PropertyGroup):
     kind: EnumProperty(name="Joint", items=KINDS, default="NONE")
     axis: EnumProperty(name="Axis", default="X", items=[(one, one, f"The bone's {one} axis") for one in "XYZ"],
                        description="Of a hinge, slider or cylinder")
-    use_cone: BoolProperty(name="Cone", default=False, description="Bound the swing by a cone about the rest pose")
+    use_cone: BoolProperty(name="Cone", default=False, description="Limit the swing to a cone about the rest pose")
     cone: angle("Half angle", math.radians(45), 0)
-    use_twist: BoolProperty(name="Twist", default=False, description="Bound the turn about the bone itself, or a hinge's axis")
+    use_twist: BoolProperty(name="Twist", default=False, description="Limit the rotation about the bone itself, or about a hinge's axis")
     twist_min: angle("Least", math.radians(-30))
     twist_max: angle("Most", math.radians(30))
-    use_swing_y: BoolProperty(name="Swing Y", default=False, description="Bound the turn about the bone's Z axis")
+    use_swing_y: BoolProperty(name="Swing Y", default=False, description="Limit the rotation about the bone's Z axis")
     swing_y_min: angle("Least", math.radians(-30))
     swing_y_max: angle("Most", math.radians(30))
-    use_swing_z: BoolProperty(name="Swing Z", default=False, description="Bound the turn about the bone's X axis")
+    use_swing_z: BoolProperty(name="Swing Z", default=False, description="Limit the rotation about the bone's X axis")
     swing_z_min: angle("Least", math.radians(-30))
     swing_z_max: angle("Most", math.radians(30))
-    use_slide: BoolProperty(name="Slide", default=False, description="Bound the way along the axis")
+    use_slide: BoolProperty(name="Slide", default=False, description="Limit the displacement along the axis")
     slide_min: FloatProperty(name="Least (m)", default=0)
     slide_max: FloatProperty(name="Most (m)", default=0.1)
     limit_stiffness: FloatProperty(name="Limit spring (N·m/rad)", default=0, min=0, description="0: hard limits")
     limit_damping: FloatProperty(name="Limit damping (N·m·s/rad)", default=0, min=0)
-    use_mass: BoolProperty(name="Own mass", default=False, description="State the mass of the bone's rigid body")
+    use_mass: BoolProperty(name="Own mass", default=False, description="Set the mass of the bone's rigid body")
     mass: FloatProperty(name="Mass (kg)", default=1, min=1e-6, soft_max=100)
     simulated: BoolProperty(name="Simulated", default=False, description="Falls and swings; otherwise it follows the animation")
     use_drive: BoolProperty(name="Drive", default=False, description="A motor that pulls towards the animated pose")
@@ -54,13 +54,13 @@ class SBFMT_PG_joint(bpy.types.PropertyGroup):
 
 class SBFMT_PG_bone(bpy.types.PropertyGroup):
     identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
-    order: IntProperty(options={"HIDDEN"}, description="Place in that file, from 1; 0: it is new")
+    order: IntProperty(options={"HIDDEN"}, description="Position in that file, from 1; 0: the bone is new")
     chain_identity: StringProperty(options={"HIDDEN"}, description="Id of the chain of inverse kinematics that ends at it")
-    hangs_on: StringProperty(name="Hangs on", description="Bone that this one hangs on in the file, such as the shin of a foot that is moved "
-                             "by hand; empty: its parent")
+    hangs_on: StringProperty(name="Hangs on", description="Parent of this bone in the file, such as the shin of a foot that is moved "
+                             "by hand; empty: its parent here")
     joint: PointerProperty(type=SBFMT_PG_joint)
     use_material: BoolProperty(name="Material of its section", default=False,
-                               description="What the section cut from a skin for this bone is made of; else as the scene's panel says")
+                               description="Material of the section cut from a skin for this bone; off: the scene's")
     attributes: PointerProperty(type=SBFMT_PG_attributes)
     rigid: BoolProperty(name="Rigid", default=False, description="No section: the skin moves with this bone")
     elements: IntProperty(name="Tetrahedra", default=0, min=0, soft_max=1000,

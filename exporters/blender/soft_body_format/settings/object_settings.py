@@ -1,4 +1,4 @@
-"""What the panels of an object hold: its role, what it is made of, what pins it, what its vertex groups mean."""
+"""Settings of the object panels: role, material, pins, and attributes painted as vertex groups."""
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
@@ -7,32 +7,32 @@ from .attributes import SBFMT_PG_attributes
 
 ROLES = (
     ("AUTO", "Automatic", "Soft body and cloth modifiers make a soft body, a parent bone makes a section, weights a skin"),
-    ("RENDER", "Render mesh", "Seen, and moved by its bones or by the sections that are cut from it"),
-    ("SECTION", "Section", "A soft part that hangs on a bone"),
-    ("SOFT", "Soft body", "Soft, and held by its pins alone"),
-    ("COLLISION", "Rigid part", "A rigid body with a hull, for joints and for things to hit"),
+    ("RENDER", "Render mesh", "Visible, and moved by its bones or by the sections that are cut from it"),
+    ("SECTION", "Section", "A soft part that is attached to a bone"),
+    ("SOFT", "Soft body", "Soft, and fixed only by its pins"),
+    ("COLLISION", "Rigid part", "A rigid body with a hull, for joints and collision"),
     ("IGNORE", "Ignore", "Left out"),
 )
 
 
 class SBFMT_PG_pin(bpy.types.PropertyGroup):
-    """One set of pins: a vertex group held by a bone, or by the world."""
+    """One set of pins: a vertex group that is pinned to a bone or to the world."""
 
-    group: StringProperty(name="Vertex group", description="Its weights: 1 holds fast, less pulls softly; empty: every vertex")
+    group: StringProperty(name="Vertex group", description="Its weights: 1 pins rigidly, less pulls softly; empty: every vertex")
     armature: PointerProperty(name="Armature", type=bpy.types.Object, poll=lambda _self, one: one.type == "ARMATURE",
-                              description="Whose bone holds; empty: the world")
-    bone: StringProperty(name="Bone", description="What holds the pins; empty: the world")
+                              description="Armature of the bone; empty: the world")
+    bone: StringProperty(name="Bone", description="Bone that the vertices are pinned to; empty: the world")
     minimum: FloatProperty(name="Least weight", default=0, min=0, max=1, description="Weights are raised to it")
     maximum: FloatProperty(name="Most weight", default=1, min=0, max=1, description="Weights are lowered to it")
     stiffness: FloatProperty(name="Stiffness (N/m)", default=0, min=0, soft_max=10000,
-                             description="Of the pull at weight 1; 0: as stiff as the body's matter")
-    damping: FloatProperty(name="Damping (N·s/m)", default=0, min=0, soft_max=100, description="Of the pull at weight 1")
+                             description="Stiffness at weight 1; 0: the stiffness of the body's material")
+    damping: FloatProperty(name="Damping (N·s/m)", default=0, min=0, soft_max=100, description="Damping at weight 1")
 
 
 class SBFMT_PG_weight_map(bpy.types.PropertyGroup):
     """A vertex group that scales one attribute."""
 
-    group: StringProperty(name="Vertex group", description="Its weights choose between the two factors")
+    group: StringProperty(name="Vertex group", description="Its weights interpolate between the two factors")
     attribute: EnumProperty(name="Attribute", default="young_modulus", items=[
         (name, name.replace("_", " ").capitalize(), f"Scales {name.replace('_', ' ')}") for name in (
             "density", "young_modulus", "bending_stiffness", "mass_damping", "stiffness_damping", "friction", "pressure",
@@ -49,7 +49,7 @@ class SBFMT_PG_object(bpy.types.PropertyGroup):
         name="Values of this panel", default=False,
         description="Use the numbers below instead of those of the object's soft body or cloth modifier")
     simulation_only: BoolProperty(name="Simulation only", default=False,
-                                  description="Soft, but not seen: another mesh is carried by it")
+                                  description="Soft, but not visible: it moves another mesh")
     mesh_identity: StringProperty(options={"HIDDEN"}, description="Id of the render mesh in the file it was imported from")
     body_identity: StringProperty(options={"HIDDEN"}, description="Id of the body in the file it was imported from")
     rigid_identity: StringProperty(options={"HIDDEN"}, description="Id of the rigid body in that file")

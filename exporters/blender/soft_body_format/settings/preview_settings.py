@@ -1,9 +1,9 @@
-"""How the character is played in the viewport, and what a bake makes of it."""
+"""Settings of the preview in the viewport and of bakes."""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-BESIDE_THE_BLEND = {"ANIMATABLE"} | ({"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set())
+BAKE_FOLDER = {"ANIMATABLE"} | ({"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set())
 
 
 class SBFMT_PG_preview(bpy.types.PropertyGroup):
@@ -11,11 +11,11 @@ class SBFMT_PG_preview(bpy.types.PropertyGroup):
 
     ground: EnumProperty(name="Ground", default="LEVEL", items=(
         ("LEVEL", "Level", "A level ground at a height"),
-        ("OBJECT", "Object", "A mesh; level at the height where there is none of it"),
+        ("OBJECT", "Object", "A mesh; beside it a level ground at the height"),
         ("NONE", "None", "Nothing to stand on")))
-    ground_height: FloatProperty(name="Height", default=0, unit="LENGTH", description="Of the level ground, above what Stands at says")
+    ground_height: FloatProperty(name="Height", default=0, unit="LENGTH", description="Height of the level ground above Stands at")
     ground_object: PointerProperty(name="Object", type=bpy.types.Object, poll=lambda _self, one: one.type == "MESH",
-                                   description="The mesh that is stood on")
+                                   description="The mesh that the character stands on")
     drive: EnumProperty(name="Drive", default="STAND", items=(
         ("STAND", "Stand", "Where it is"),
         ("WALK", "Walk", "With the speeds below"),
@@ -24,18 +24,18 @@ class SBFMT_PG_preview(bpy.types.PropertyGroup):
     sideways: FloatProperty(name="Sideways (m/s)", default=0, soft_min=-2, soft_max=2, description="To the left; may be animated")
     turn: FloatProperty(name="Turn (rad/s)", default=0, soft_min=-3, soft_max=3, description="To the left; may be animated")
     curve: PointerProperty(name="Curve", type=bpy.types.Object, poll=lambda _self, one: one.type == "CURVE",
-                           description="What is walked along; its first spline counts, seen from above")
+                           description="The path to walk along: the first spline, seen from above")
     follow_animation: BoolProperty(name="Play the animation", default=True,
-                                   description="Bones move as the armature's own action says, under the gait")
+                                   description="Play the armature's own animation under the gait")
     settle: FloatProperty(name="Settle (s)", default=0, min=0, soft_max=5,
-                          description="Simulated before the first frame, so that bodies hang as they will")
-    bake_start: IntProperty(name="Start", default=1, description="First frame that is kept")
-    bake_end: IntProperty(name="End", default=250, description="Last frame that is kept")
+                          description="Time simulated before the first frame, so that bodies come to rest")
+    bake_start: IntProperty(name="Start", default=1, description="First frame to keep")
+    bake_end: IntProperty(name="End", default=250, description="Last frame to keep")
     bake_to: EnumProperty(name="Bake to", default="PC2", items=(
         ("PC2", "Point cache (.pc2)", "A file an object, played by a Mesh Cache modifier"),
         ("MDD", "Point cache (.mdd)", "A file an object, played by a Mesh Cache modifier"),
         ("SHAPE_KEYS", "Shape keys", "Copies of the objects with a keyed shape for each frame")))
-    bake_folder: StringProperty(name="Folder", default="//soft_body_cache", subtype="DIR_PATH", options=BESIDE_THE_BLEND,
+    bake_folder: StringProperty(name="Folder", default="//soft_body_cache", subtype="DIR_PATH", options=BAKE_FOLDER,
                                 description="Where point caches lie")
     key_every: IntProperty(name="A key every", default=1, min=1, soft_max=10, description="Frames from one shape key to the next")
 

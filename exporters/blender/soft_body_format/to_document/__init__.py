@@ -1,4 +1,4 @@
-"""From a Blender scene to the format's source parts. `scene` leads; each other module writes one kind of part."""
+"""Writes a Blender scene as the format's source parts. `scene` calls the other modules, each of which writes one kind of part."""
 
 from .scene import NOTHING, Options, SceneWriter
 

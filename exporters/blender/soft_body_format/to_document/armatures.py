@@ -1,4 +1,4 @@
-"""Bones of an armature: rest pose, roll, inherit flags."""
+"""Writes bones of armatures: rest pose, roll, inherit flags."""
 
 
 class Skeleton:
@@ -14,14 +14,14 @@ class Skeleton:
         return self.ids.get((armature.name, bone_name))
 
 
-def hung_on(bone):
-    """The bone that this one hangs on in the file: as its panel says, else its parent."""
+def parent_in_file(bone):
+    """The bone's parent in the file: the bone named in its panel, else its parent in the armature."""
     found = bone.id_data.bones.get(bone.soft_body_format.hangs_on) if bone.soft_body_format.hangs_on else None
     return bone.parent if found is None or is_below(found, bone) else found
 
 
 def is_below(bone, other):
-    """Whether a bone is another one or hangs below it, by the armature and by what the panels say."""
+    """Whether a bone is another bone or its descendant, in the armature or in the file."""
     seen = set()
     while bone is not None and bone.name not in seen:
         if bone == other:
@@ -32,13 +32,13 @@ def is_below(bone, other):
 
 
 def parents_first(bones):
-    """Imported bones in their file's order, so that numbers stay what they were; then the others."""
+    """Imported bones in their file's order, so that their indices do not change; then the others."""
     known = sorted((bone for bone in bones if bone.soft_body_format.order), key=lambda bone: bone.soft_body_format.order)
     order, done = [], set()
 
     def put(bone):
         if bone is not None and bone.name not in done:
-            put(hung_on(bone))
+            put(parent_in_file(bone))
             done.add(bone.name)
             order.append(bone)
 
@@ -52,14 +52,14 @@ def inherits_scale(bone):
 
 
 def write_bones(asset, armature, space, identifiers, skeleton):
-    """The rest pose in world space, whatever the pose on the screen; bones keep their roll."""
+    """Writes the rest pose in world space, independent of the current pose. Bones keep their roll."""
     world = armature.matrix_world
     scale = space.unit_m * world.median_scale
     for bone in parents_first(armature.data.bones):
         key = (armature.name, bone.name)
         skeleton.ids[key] = identifiers.of("bone", key, bone.name, bone.soft_body_format.identity)
         skeleton.numbers[key] = len(asset.bones)
-        frame, parent = world @ bone.matrix_local, hung_on(bone)
+        frame, parent = world @ bone.matrix_local, parent_in_file(bone)
         asset.add("bones", id=skeleton.ids[key], name=bone.name, head=space.point(frame.translation),
                   rotation=space.rotation(frame.to_quaternion()), length=bone.length * scale,
                   parent=skeleton.id(armature, parent.name) if parent else None,

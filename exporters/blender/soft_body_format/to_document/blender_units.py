@@ -1,4 +1,4 @@
-"""What the numbers of Blender's soft body and cloth mean in SI units.
+"""Converts settings of Blender's soft body and cloth to SI units.
 
 Both simulations measure time in frames and take a thousandth of the scene's gravity: 0.00981 a frame and a frame. The time unit
 at which that is 9.81 m/s² is the square root of 0.001 s², 31.6 ms, whatever the frame rate. In this unit forces are kg m/unit²,
@@ -9,8 +9,8 @@ import math
 
 TIME_UNIT_S = math.sqrt(0.001)
 FORCE_UNIT_N = 1.0 / TIME_UNIT_S**2
-FRICTION_SCALE = 0.01  # Blender multiplies its frictions by it
-HELD_GOAL = 0.999
+FRICTION_SCALE = 0.01  # Blender's factor on friction settings
+PINNED_GOAL = 0.999
 
 
 def stiff(slider):
@@ -25,12 +25,12 @@ def edge_stiffness(pull, length_m):
 
 
 def push_ratio(soft):
-    """What an edge resists being pressed by, as a share of what it resists being drawn by; infinite where it resists that not at all."""
+    """An edge's resistance to compression over its resistance to tension; infinite if it does not resist tension."""
     return stiff(soft.push) / stiff(soft.pull) if stiff(soft.pull) > 0 else math.inf if soft.push > 0 else 1.0
 
 
 def goal_of(weight, soft):
-    """0..1, f = default · weight within the bounds; from HELD_GOAL on Blender holds the vertex fast."""
+    """0..1, f = default · weight within the bounds. From PINNED_GOAL on Blender pins the vertex rigidly."""
     return min(abs(weight * soft.goal_default * (soft.goal_max - soft.goal_min)) + soft.goal_min, 1.0)
 
 
@@ -40,34 +40,34 @@ def goal_stiffness(weight, soft):
 
 
 def friction(slider):
-    """N·s/m of a friction of Blender's."""
+    """N·s/m of a friction setting of Blender."""
     return FRICTION_SCALE * slider / TIME_UNIT_S
 
 
 def air_density(aero, edges, area_m2):
-    """kg/m³ of the medium that brakes a sheet as a soft body's aerodynamics do: each edge is held back by 0.0001 · aero · (twice its
-    speed)², which in SI is 0.0004 · aero · v² newtons, and a medium brakes by density/2 · v² · area."""
+    """kg/m³ of the medium with the same drag as a soft body's aerodynamics. Blender's drag on each edge is 0.0001 · aero · (twice its
+    speed)², in SI units 0.0004 · aero · v² newtons. The drag of a medium is density/2 · v² · area."""
     return 8e-4 * aero * edges / area_m2
 
 
 def field_on_soft_body(mass_kg, rate):
-    """m/s² that a field of strength 1 gives a vertex at `rate` frames a second: a hundredth of it, against the field's own way."""
+    """m/s² that a field of strength 1 gives a vertex at `rate` frames a second: a hundredth of it, opposite to the field."""
     return -FRICTION_SCALE * FORCE_UNIT_N / (rate * mass_kg)
 
 
 def field_on_cloth(area_density, rate):
-    """m/s² that a field of strength 1 gives a cloth of so many kg/m²: it pushes areas, by a fiftieth of it."""
+    """m/s² that a field of strength 1 gives a cloth of that mass per area in kg/m². The field acts on areas, by a fiftieth of it."""
     return FORCE_UNIT_N / 50 / (rate * area_density)
 
 
 def drag_on_soft_body(mass_kg):
-    """1/s that a drag field of linear strength 1 takes from the speed of a vertex. (In Blender it adds to it, as soft bodies take
-    every field against its own way.)"""
+    """Deceleration rate, 1/s, of a vertex in a drag field of linear strength 1. (In Blender the field accelerates it, because every
+    field acts on soft bodies with the opposite sign.)"""
     return FRICTION_SCALE / (TIME_UNIT_S * mass_kg)
 
 
 def drag_on_cloth(area_density):
-    """1/s that a drag field of linear strength 1 takes from the speed of a cloth of so many kg/m²."""
+    """Deceleration rate, 1/s, of a cloth of that mass per area, kg/m², in a drag field of linear strength 1."""
     return 1 / (50 * TIME_UNIT_S * area_density)
 
 
@@ -77,14 +77,14 @@ def cloth_damping(slider):
 
 
 def hinge_torque(bending, side_m, distance_m):
-    """N·m/rad with which a polygon whose corners' middle is so far from a side resists being turned about it: by a force of a tenth of
-    the bending stiffness times the side, in equal parts at its corners."""
+    """N·m/rad: a polygon's stiffness against rotation about a side, for the distance from the mean of its corners to the side. The
+    force is a tenth of the bending stiffness times the side, in equal parts at the corners."""
     return 0.1 * FORCE_UNIT_N * bending * side_m * distance_m
 
 
 def cloth_layer(tension, shear, edge_m):
-    """(modulus times thickness in N/m, Poisson's ratio) of a square weave: threads of stiffness t along both edges of a cell and s
-    along its diagonals give C11 = t + s and C12 = s, of which the ratio is C12/C11 and the modulus C11 (1 - ratio²)."""
+    """(modulus times thickness in N/m, Poisson's ratio) of a square weave. Threads of stiffness t along both edges of a cell and s
+    along its diagonals give C11 = t + s and C12 = s. The ratio is C12/C11, and the modulus is C11 (1 - ratio²)."""
     t, s = cloth_stiffness(tension, edge_m), cloth_stiffness(shear, edge_m)
     ratio = min(s / max(t + s, 1e-12), 0.499)
     return (t + s) * (1 - ratio**2), ratio

@@ -1,4 +1,4 @@
-"""Which objects go out, and stand-ins for those that stand in the scene only as instances of a collection."""
+"""Selects the objects to export, and makes temporary copies of objects that exist only as instances of a collection."""
 
 import contextlib
 
@@ -9,7 +9,7 @@ SCRATCH = "Soft body format, while it exports"
 
 
 def on_in_renders(layer, on=True, found=None):
-    """Names of objects in a layer's collections that are ticked in the outliner and not off in renders."""
+    """Names of objects in a layer's collections that are enabled in the outliner and in renders."""
     found = set() if found is None else found
     on = on and not layer.exclude and not layer.collection.hide_render
     if on:
@@ -20,10 +20,10 @@ def on_in_renders(layer, on=True, found=None):
 
 
 def chosen_objects(context, options):
-    """Objects of the view layer that are to go out, by name: the order of Blender's lists changes between sessions."""
+    """Objects of the view layer to export, sorted by name because the order of Blender's lists changes between sessions."""
     shown = on_in_renders(context.view_layer.layer_collection)
-    asked = {one.name_full for one in bpy.data.collections[options.collection].all_objects} if options.collection else shown
-    kept = [one for one in context.view_layer.objects if one.name_full in asked & shown and not one.hide_render and
+    wanted = {one.name_full for one in bpy.data.collections[options.collection].all_objects} if options.collection else shown
+    kept = [one for one in context.view_layer.objects if one.name_full in wanted & shown and not one.hide_render and
             (one.select_get() or not options.selected_only)]
     return sorted(kept, key=lambda one: one.name_full)
 
@@ -33,7 +33,7 @@ def is_instance(source):
 
 
 class StandIns:
-    """Copies of objects for the time of an export. They share their data with what they are copies of."""
+    """Copies of objects for the time of an export. They share their data with the originals."""
 
     def __init__(self, context):
         self.context, self.owners, self.of = context, {}, {}
@@ -49,9 +49,9 @@ class StandIns:
         return made
 
     def instance(self, empty, owner):
-        """Everything in the collection that an empty shows, and in those that it shows."""
+        """Copies everything in the collection that an empty instances, and in the collections nested in it."""
         inside = [one for one in empty.instance_collection.all_objects if not one.hide_render]
-        place = empty.matrix_world @ Matrix.Translation(-empty.instance_collection.instance_offset)
+        world_of_instance = empty.matrix_world @ Matrix.Translation(-empty.instance_collection.instance_offset)
         made = {one: self.copy(one, f"{empty.name}/{one.name}", owner) for one in inside}
         for source, copy in made.items():
             redirect(copy, made)
@@ -60,7 +60,7 @@ class StandIns:
             else:
                 world = source.matrix_basis if source.parent is None else source.matrix_world
                 copy.parent = None
-                copy.matrix_world = place @ world
+                copy.matrix_world = world_of_instance @ world
         self.context.view_layer.update()
         copies = list(made.values())
         for copy in [one for one in copies if is_instance(one)]:
@@ -74,7 +74,7 @@ class StandIns:
 
 
 def redirect(copy, made):
-    """What a copy names among the originals it names among the copies."""
+    """Makes references from copies to originals point to the copies."""
     settings = copy.soft_body_format
     for owner in (*copy.modifiers, *copy.constraints, *settings.pins, copy.rigid_body_constraint,
                   *(one for pose in (copy.pose.bones if copy.pose else ()) for one in pose.constraints)):
@@ -87,8 +87,8 @@ def redirect(copy, made):
 
 @contextlib.contextmanager
 def with_stand_ins(context, objects):
-    """(objects, stand-ins or None): collection instances replaced by what they show, and objects of libraries whose name a local
-    one has too by copies with names of their own. Nothing of it is left behind."""
+    """(objects, stand-ins or None). Copies replace collection instances. Library objects with the name of a local object are replaced
+    by copies with new names. All copies are removed at the end."""
     local = {one.name for one in objects if one.library is None}
     doubles = [one for one in objects if one.library is not None and one.name in local]
     instances = [one for one in objects if is_instance(one)]

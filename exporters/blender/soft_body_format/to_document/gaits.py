@@ -1,18 +1,18 @@
-"""The gait of the scene's panel, and what rests on it: chains of inverse kinematics, tails, followers."""
+"""Writes the gait of the scene's panel, with its inverse kinematics chains, tails and followers."""
 
 import numpy
 from mathutils import Vector
 
 from ..sbfmt.document import Record
-from .armatures import hung_on
+from .armatures import parent_in_file
 
 
-OFF_GROUND = 0.05  # of the height of what bones hold: how far off the ground a foot may be that stands on it
+GROUND_TOLERANCE = 0.05  # largest distance of a standing foot from the ground, as a fraction of the character's height
 
 
-def held_heights(asset):
-    """For each bone the least y of the points of meshes that it holds more than others do, infinite without any; and the greatest of
-    all of them, or of the bones."""
+def heights_by_bone(asset):
+    """The minimum y of the mesh points of which each bone has the largest weight, infinite without points; and the maximum y of all
+    these points, or of the bones."""
     lowest, highest = numpy.full(len(asset.bones), numpy.inf), -numpy.inf
     number = {bone.id: index for index, bone in enumerate(asset.bones)}
     for record in (*asset.render_meshes, *asset.soft_bodies):
@@ -22,7 +22,7 @@ def held_heights(asset):
         if skin is not None:
             counts = numpy.asarray(skin.influence_counts, dtype=numpy.uint32)
             vertex = numpy.repeat(numpy.arange(len(counts)), counts)
-            # Of each vertex the last, by weight.
+            # The last entry of each vertex has the largest weight.
             order = numpy.lexsort((numpy.asarray(skin.weights, dtype=numpy.float32), vertex))
             last = order[numpy.flatnonzero(numpy.diff(vertex, append=len(counts)))] if len(vertex) else order
             highest = max(highest, heights[vertex].max(initial=highest))
@@ -45,7 +45,7 @@ class GaitWriter:
         self.writer.findings.error(f"{message}, in Scene > Soft body format > Gait", object_name=self.armature.name, bone_name=bone)
 
     def bone(self, name, what):
-        """The id of a bone that the panel names; an error where it is gone."""
+        """The id of a bone that the panel names; an error if it does not exist."""
         found = self.writer.skeleton.id(self.armature, name)
         if found is None:
             self.fault(f"{what} names the bone {name!r}, which is not there: choose another one")
@@ -55,14 +55,14 @@ class GaitWriter:
         return self.bone(name, what) if name else None
 
     def chain(self, root, end, what):
-        """Bones from root to end, or None with an error."""
+        """The bones from root to end, or None with an error."""
         found, bone = [], self.bones.get(end)
         while bone is not None:
             found.insert(0, bone)
             if bone.name == root:
                 return found
-            bone = hung_on(bone)
-        self.fault(f"{what} goes from {root!r} to {end!r}, but the second does not hang below the first: choose others")
+            bone = parent_in_file(bone)
+        self.fault(f"{what} goes from {root!r} to {end!r}, but the second is no descendant of the first: choose others")
         return None
 
     def write(self):
@@ -77,10 +77,10 @@ class GaitWriter:
             setattr(record, name, getattr(gait, name) * writer.space.unit_m)
         for name in ("step_duration", "walk_speed", "hip_tilt", "body_tilt"):
             setattr(record, name, getattr(gait, name))
-        self.lowest, self.highest = held_heights(writer.asset)
+        self.lowest, self.highest = heights_by_bone(writer.asset)
         for leg in gait.legs:
             self.leg(record, leg)
-        self.look_at_ground(record)
+        self.check_feet_on_ground(record)
         if gait.head:
             record.add("head", bone=self.bone(gait.head, "the head"), lead=gait.head_lead, limit=gait.head_limit)
         for tail in gait.tails:
@@ -105,20 +105,20 @@ class GaitWriter:
         record.legs.append(Record("leg", name=leg.end, ik=chain.id, home=home, sole=self.sole(bones[-1], home), group=leg.group))
 
     def sole(self, foot, home):
-        """How far the foot bone's head is above the lowest that it and the bones below it hold; where they hold nothing, above the
-        lowest of their tails."""
+        """The height of the foot bone's head above the lowest mesh point of it and its descendants. Without mesh points: above the lowest
+        of their tails."""
         below = [foot, *foot.children_recursive]
         low = min(self.lowest[self.writer.skeleton.number(self.armature, bone.name)] for bone in below)
         if not numpy.isfinite(low):
             low = min(self.writer.space.point(self.armature.matrix_world @ bone.tail_local)[1] for bone in below)
         return max(0.0, home[1] - float(low))
 
-    def look_at_ground(self, record):
-        """Feet that stand in the air, or below the ground, walk so."""
+    def check_feet_on_ground(self, record):
+        """Warns about feet above or below the ground, because they would walk there."""
         if not record.legs:
             return
         low = min(leg.home[1] - leg.sole for leg in record.legs)
-        if abs(low) > OFF_GROUND * (self.highest - low):
+        if abs(low) > GROUND_TOLERANCE * (self.highest - low):
             space = self.writer.space
             self.writer.findings.warning(
                 f"its feet are {abs(low):.3g} m {'above' if low > 0 else 'below'} the ground: set Stands at to "

@@ -1,10 +1,10 @@
-"""Ids: stable, unique in the file, from names that need be neither."""
+"""Makes ids that are stable and unique in the file from names that may be neither."""
 
 import re
 
 
 class Identifiers:
-    """Gives every thing an id, `kind.name`, with a number behind where that is taken."""
+    """Gives every object an id, `kind.name`, with a number appended if that is taken."""
 
     def __init__(self):
         self.taken, self.given = set(), {}
@@ -18,8 +18,8 @@ class Identifiers:
         return wanted
 
     def of(self, kind, key, name, imported=""):
-        """The id of a thing, given when it is first asked for: the one it was imported with, unless a copy has that already.
-        `key` tells things of one name apart."""
+        """The id of an object, made at the first call. Imported objects keep their id unless a copy has it already. `key` distinguishes
+        objects with equal names."""
         if (kind, key) not in self.given:
             if imported and imported not in self.taken:
                 self.taken.add(imported)
@@ -29,5 +29,5 @@ class Identifiers:
         return self.given[kind, key]
 
     def known(self, kind, key):
-        """The id that was given, or None."""
+        """The id of an object, or None if it has none yet."""
         return self.given.get((kind, key))

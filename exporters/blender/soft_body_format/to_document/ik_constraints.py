@@ -1,7 +1,7 @@
-"""IK constraints of pose bones: chains with pole, stiffness as comfort."""
+"""Writes IK constraints of pose bones as chains, with their pole and their stiffness (the format's comfort)."""
 
 from ..sbfmt.document import Record
-from .armatures import hung_on
+from .armatures import parent_in_file
 
 
 class IkConstraints:
@@ -15,19 +15,19 @@ class IkConstraints:
                     self.chain(pose, one)
 
     def chain(self, pose, one):
-        """What reaches is the tail of the constrained bone, or its head: here the head of a bone that begins there."""
+        """The end of the chain: a bone whose head is at the tail (or head) of the constrained bone, which reaches for the target."""
         writer, bone = self.writer, self.armature.data.bones[pose.name]
-        last = bone if one.use_tail else hung_on(bone)
+        last = bone if one.use_tail else parent_in_file(bone)
         if last is None:
             writer.findings.warning("its IK constraint is left out: it does not use the tail, and there is no bone above it to turn",
                                     object_name=self.armature.name, bone_name=pose.name)
             return
         end = self.end_of(bone) if one.use_tail else bone.name
         bones = [last]
-        while hung_on(bones[-1]) is not None and (one.chain_count == 0 or len(bones) < one.chain_count):
-            bones.append(hung_on(bones[-1]))
+        while parent_in_file(bones[-1]) is not None and (one.chain_count == 0 or len(bones) < one.chain_count):
+            bones.append(parent_in_file(bones[-1]))
         if any(chain.end == writer.skeleton.id(self.armature, end) for chain in writer.asset.ik_chains):
-            return  # the gait has it already
+            return  # the gait already has this chain
         made = writer.asset.add("ik_chains", id=self.chain_id(end), name=one.name,
                                 end=writer.skeleton.id(self.armature, end),
                                 root=self.id(bones[-1]), solver="two_bone" if len(bones) == 2 else "ccd",
@@ -38,7 +38,7 @@ class IkConstraints:
             self.comfort(made, link)
 
     def end_of(self, bone):
-        """The name of a bone that begins at the tail; a new one of the file where there is none."""
+        """The name of a bone that begins at the tail. Adds one to the file if there is none."""
         found = next((child for child in bone.children if (child.head_local - bone.tail_local).length < 1e-4), None)
         if found is not None:
             return found.name
@@ -69,8 +69,8 @@ class IkConstraints:
         made.has_pole, made.pole = True, self.writer.space.point(world)
 
     def comfort(self, made, bone):
-        """A stiff bone prefers its rest pose: the largest of its three stiffnesses is the weight, the others are shares of it. Of more
-        than two bones the solver is Blender's, which minds them all the way to the target."""
+        """A stiff bone prefers its rest pose. The largest of its three stiffnesses is the weight; the others are fractions of it. Chains
+        of more than two bones use Blender's solver, which applies the stiffness at any distance to the target."""
         pose = self.armature.pose.bones[bone.name]
         stiffness = (pose.ik_stiffness_x, pose.ik_stiffness_y, pose.ik_stiffness_z)
         weight = max(stiffness)

@@ -1,4 +1,4 @@
-"""Materials: the principled shader's base colour, metallic, roughness, emission, opacity and images."""
+"""Writes materials: the principled shader's base colour, metallic, roughness, emission, opacity and images."""
 
 import os
 import re
@@ -25,8 +25,8 @@ def principled(material):
 
 
 class Materials:
-    """Writes each material and image once, when the first mesh asks for it. `files` are the images to be copied, by their paths
-    from the folder of the bundle: they are written with it, so that an export that fails leaves none."""
+    """Writes each material and image once, when the first mesh uses it. `files` holds the images to copy, by their paths relative to
+    the bundle. They are written together with the bundle, so a failed export leaves none behind."""
 
     def __init__(self, asset, identifiers, textures, findings):
         self.asset, self.identifiers, self.textures, self.findings = asset, identifiers, textures, findings
@@ -63,7 +63,7 @@ class Materials:
 
     @staticmethod
     def fill_color(found, material, inputs, base):
-        """Colour and opacity. An image takes the constant's place, so that alone a factor on it counts."""
+        """Writes colour and opacity. An image replaces the constant; only a factor on the image counts."""
         alpha = source_of(inputs["Alpha"])
         opacity = factor_of(inputs["Alpha"], alpha)
         if base.image is None:
@@ -99,7 +99,7 @@ class Materials:
         return identity
 
     def free_path(self, path, data):
-        """The path, with a number where another image has it."""
+        """The path, with a number if another image has the same."""
         stem, extension = os.path.splitext(path)
         number = 2
         while self.files.get(path, data) != data:
@@ -108,7 +108,7 @@ class Materials:
 
     @staticmethod
     def bytes_of(image):
-        """(media type, the file's own bytes), or, of a painted or foreign one, those of a PNG made of it."""
+        """(media type, bytes). The file's own bytes, or a PNG of an image that is painted or of another type."""
         media = MEDIA_TYPES.get(image.file_format)
         path = bpy.path.abspath(image.filepath_raw, library=image.library)
         if image.packed_file and media and not image.is_dirty:
@@ -123,7 +123,7 @@ class Materials:
 
 
 def png_of(image):
-    """A PNG of the pixels; None where Blender has none. A copy is saved: saving the image itself would change its format."""
+    """A PNG of the pixels; None if Blender has no pixels. Saves a copy, because saving the image itself changes its format."""
     width, height = image.size
     if not width or not height:
         return None
@@ -143,7 +143,7 @@ def png_of(image):
 
 
 def key_of(data):
-    """Names stand twice where one is of a linked library."""
+    """A unique key: a local object and one of a linked library may have the same name."""
     return (data.name, data.library.filepath if data.library else "")
 
 
@@ -155,7 +155,7 @@ def plain_name(name):
 
 
 def factor_of(socket, source):
-    """The number that stands in a socket, or the factor on what feeds it."""
+    """The number in a socket, or the factor on its input."""
     return source.factor if socket.links and not isinstance(source.factor, tuple) else \
         1.0 if socket.links else socket.default_value
 

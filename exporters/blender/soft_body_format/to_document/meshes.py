@@ -1,4 +1,4 @@
-"""Polygons, normals, texture coordinates, weights and shape keys of a mesh object."""
+"""Writes polygons, normals, texture coordinates, weights and shape keys of a mesh object."""
 
 import numpy
 
@@ -17,14 +17,14 @@ class Geometry:
         self.polygon_materials = gather(mesh.polygons, "material_index", numpy.uint32)
 
     def corner_order(self):
-        """Which of Blender's corners each of ours is: polygon after polygon, run round the other way where the object mirrors."""
+        """The Blender corner of each written corner, by polygons. A mirrored object's polygons are reversed."""
         sizes = self.polygon_sizes.astype(numpy.int64)
         total = int(sizes.sum())
         first = numpy.repeat(numpy.cumsum(sizes) - sizes, sizes)
-        place = numpy.arange(total, dtype=numpy.int64) - first
+        index = numpy.arange(total, dtype=numpy.int64) - first
         if self.mirrored:
-            place = (numpy.repeat(sizes, sizes) - place) % numpy.repeat(sizes, sizes)
-        return numpy.repeat(self.starts.astype(numpy.int64), sizes) + place
+            index = (numpy.repeat(sizes, sizes) - index) % numpy.repeat(sizes, sizes)
+        return numpy.repeat(self.starts.astype(numpy.int64), sizes) + index
 
 
 def gather(collection, name, dtype, width=1):
@@ -42,8 +42,8 @@ def fill_polygons(record, geometry, target):
 
 
 def distinct(rows):
-    """(rows of two or three floats each once, in the order they first come in; which of them each was). Rows are equal where their
-    bits are."""
+    """(distinct rows of two or three floats in order of first use, index of each input row's distinct row). Equal rows have equal
+    bits."""
     bits = numpy.ascontiguousarray(rows).view(numpy.uint32).astype(numpy.uint64)
     keys = bits[:, 0] << numpy.uint64(32) | bits[:, 1]
     sorting = numpy.argsort(keys, kind="stable") if rows.shape[1] == 2 else numpy.lexsort((bits[:, 2], keys))
@@ -51,15 +51,15 @@ def distinct(rows):
     begins[1:] = (bits[sorting[1:]] != bits[sorting[:-1]]).any(axis=1)
     first = sorting[begins]
     order = numpy.argsort(first, kind="stable")
-    place = numpy.empty(len(first), dtype=numpy.uint32)
-    place[order] = numpy.arange(len(first))
+    index = numpy.empty(len(first), dtype=numpy.uint32)
+    index[order] = numpy.arange(len(first))
     which = numpy.empty(len(rows), dtype=numpy.uint32)
-    which[sorting] = place[numpy.cumsum(begins) - 1]
+    which[sorting] = index[numpy.cumsum(begins) - 1]
     return rows[first[order]], which
 
 
 def fill_normals(record, geometry, source, space):
-    """As shown: one a vertex where all its corners agree, else one a corner."""
+    """Writes the displayed normals: one per vertex if all its corners agree, else one per corner."""
     normals = space.normals(corner_normals(geometry.mesh)[geometry.order], source.matrix_world)
     points, count = geometry.polygon_points, len(geometry.positions)
     if not len(points):
@@ -90,7 +90,7 @@ def fill_uv_sets(record, geometry):
 
 
 def fill_shape_keys(record, source, geometry, space, findings):
-    """Every key against its own base, where the mesh still has the vertices that the keys were made for."""
+    """Writes each shape key relative to its base key, if the mesh still has the vertices that the keys were made for."""
     keys = getattr(source.data, "shape_keys", None)
     if keys is None:
         return
@@ -112,7 +112,7 @@ def fill_shape_keys(record, source, geometry, space, findings):
 
 
 def group_weights(mesh, groups):
-    """{group index: (vertices, weights)} of those groups, vertices in order."""
+    """{group index: (vertices, weights)} of those groups, sorted by vertex."""
     found = {index: ([], []) for index in groups}
     for vertex in mesh.vertices:
         for one in vertex.groups:
@@ -123,17 +123,17 @@ def group_weights(mesh, groups):
 
 
 def fill_skin(record, source, mesh, bone_of_group, findings):
-    """Weights of any count, made to sum to one. `bone_of_group` names the bone of a vertex group by its index."""
+    """Writes any number of weights per vertex, normalized to sum 1. `bone_of_group` maps indices of vertex groups to bones."""
     counts = numpy.zeros(len(mesh.vertices), dtype=numpy.uint32)
     bones, weights, loose = [], [], []
     for vertex in mesh.vertices:
-        held = sorted((bone_of_group[one.group], one.weight) for one in vertex.groups
+        influences = sorted((bone_of_group[one.group], one.weight) for one in vertex.groups
                       if one.group in bone_of_group and one.weight > 0.0)
-        total = sum(weight for _, weight in held)
-        counts[vertex.index] = len(held)
-        bones += [bone for bone, _ in held]
-        weights += [weight / total for _, weight in held]
-        if not held:
+        total = sum(weight for _, weight in influences)
+        counts[vertex.index] = len(influences)
+        bones += [bone for bone, _ in influences]
+        weights += [weight / total for _, weight in influences]
+        if not influences:
             loose.append(vertex.index)
     if loose and len(loose) < len(counts):
         findings.warning(f"{len(loose)} vertices have no weight of any bone; they will stay with the root", vertices=loose,

@@ -1,27 +1,27 @@
-"""Pins: the sets of the panel, and which bone holds a point that an armature moves."""
+"""Writes the pin sets of the panel, and finds the bone that a pinned point follows."""
 
 import numpy
 
 from ..sbfmt.document import Record
 
 
-def by_holder(writer, source, mesh, points):
-    """[(bone id or None for the world, points)]: the bone a mesh hangs on, or each point's strongest bone."""
-    holder = writer.holder(source)
+def group_by_bone(writer, source, mesh, points):
+    """[(bone id or None for the world, points)]: the bone that a mesh is parented to, or each point's bone of largest weight."""
+    bone_of_object = writer.bone_of_object(source)
     armature = writer.armatures[source.name]
-    if holder is not None or armature is None:
-        return [(holder, numpy.asarray(points, dtype=numpy.uint32))]
+    if bone_of_object is not None or armature is None:
+        return [(bone_of_object, numpy.asarray(points, dtype=numpy.uint32))]
     bones = {group.index: writer.skeleton.id(armature, group.name) for group in source.vertex_groups}
     sets = {}
     for point in numpy.asarray(points).tolist():
-        held = [(one.weight, bones.get(one.group)) for one in mesh.vertices[point].groups if bones.get(one.group)]
-        sets.setdefault(max(held)[1] if held else None, []).append(point)
+        influences = [(one.weight, bones.get(one.group)) for one in mesh.vertices[point].groups if bones.get(one.group)]
+        sets.setdefault(max(influences)[1] if influences else None, []).append(point)
     return sorted(((bone, numpy.array(found, dtype=numpy.uint32)) for bone, found in sets.items()),
                   key=lambda pair: pair[0] or "")
 
 
 def fill_pins(writer, body, source, mesh):
-    """The sets of the panel. A group that is gone, or a bone, is an error: the pin would silently hold nothing."""
+    """Writes the pin sets of the panel. A missing group or bone is an error, because the pins would do nothing."""
     for pin in source.soft_body_format.pins:
         group = source.vertex_groups.get(pin.group)
         if pin.group and group is None:
@@ -43,7 +43,7 @@ def fill_pins(writer, body, source, mesh):
 
 
 def weighted_points(mesh, group):
-    """(vertices, weights) of a group; all with weight 1 where there is none."""
+    """(vertices, weights) of a group; without a group all vertices, with weight 1."""
     if group is None:
         return list(range(len(mesh.vertices))), [1.0] * len(mesh.vertices)
     found = [(vertex.index, one.weight) for vertex in mesh.vertices for one in vertex.groups

@@ -1,4 +1,4 @@
-"""What sections that a build cuts from a skin are made of: as the scene's panel says, and a bone's for its own."""
+"""Writes materials of sections that a build cuts from a skin: the scene panel's, and those of single bones."""
 
 from ..sbfmt.document.elements import VERSION
 from ..settings.attributes import fill_attributes

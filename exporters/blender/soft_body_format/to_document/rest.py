@@ -1,4 +1,4 @@
-"""Meshes as they are at rest: modifiers evaluated or not, but nothing that poses or simulates."""
+"""Reads meshes at rest, with or without modifiers, but without posing and simulation."""
 
 import contextlib
 
@@ -9,7 +9,7 @@ POSING = ("ARMATURE", "SOFT_BODY", "CLOTH", "SURFACE_DEFORM", "MESH_DEFORM", "ME
 
 @contextlib.contextmanager
 def at_rest(objects, view_layer):
-    """Turns posing and simulating modifiers off and armatures to their rest pose, and everything back at the end."""
+    """Turns posing and simulating modifiers off and sets armatures to their rest pose. Restores both at the end."""
     modifiers = [one for source in objects for one in source.modifiers if one.type in POSING and one.show_viewport]
     armatures = {source.data for source in objects if source.type == "ARMATURE"}
     poses = [(data, data.pose_position) for data in armatures]
@@ -36,7 +36,7 @@ def at_rest(objects, view_layer):
 
 @contextlib.contextmanager
 def instances_realized(objects, view_layer):
-    """What geometry nodes show as instances becomes part of the mesh, for the time of the `with`."""
+    """Makes instances from geometry nodes part of the mesh, for the time of the `with`."""
     nodes, made = None, []
     try:
         for source in objects:
@@ -69,7 +69,7 @@ def realizing_nodes():
 
 
 def materials_of(source, mesh):
-    """By slot: an object's own where it says so, else those of its mesh, to which nodes may have added some."""
+    """Materials by slot: the object's own if the slot says so, else the mesh's. Geometry nodes may add some to the mesh."""
     own = {index: slot.material for index, slot in enumerate(source.material_slots) if slot.link == "OBJECT"}
     of_mesh = [one.original if one is not None else None for one in mesh.materials]
     return [own[index] if index in own else of_mesh[index] if index < len(of_mesh) else None
@@ -78,7 +78,7 @@ def materials_of(source, mesh):
 
 @contextlib.contextmanager
 def mesh_of(source, depsgraph, apply_modifiers):
-    """The object's mesh, evaluated or as edited; it is gone after the `with`."""
+    """The object's mesh, with or without modifiers. It is freed at the end of the `with`."""
     if not apply_modifiers:
         yield source.data
         return

@@ -1,4 +1,4 @@
-"""Objects with rigid body settings, and the rigid body constraints between them."""
+"""Writes objects with rigid body settings, and the rigid body constraints between them."""
 
 import bmesh
 import numpy
@@ -16,15 +16,15 @@ KINDS = {"FIXED": "fixed", "POINT": "spherical", "HINGE": "revolute", "SLIDER": 
 LINEAR = ("linear_x", "linear_y", "linear_z")
 ANGULAR = ("twist", "swing_y", "swing_z")
 SEGMENTS = 12  # of round shapes' hulls
-COLLIDER_FRICTION = 0.1  # Blender's cloth takes this share of the slider as its coefficient
+COLLIDER_FRICTION = 0.1  # Blender's cloth uses this fraction of the slider as its coefficient
 
 
 def is_flat(made):
-    """Whether all points lie in a plane, but for a hundred-thousandth of their extent."""
-    places = numpy.array([vertex.co for vertex in made.verts]).reshape(-1, 3)
-    if len(places) < 4:
+    """Whether all points lie in a plane, within 1e-5 of their extent."""
+    positions = numpy.array([vertex.co for vertex in made.verts]).reshape(-1, 3)
+    if len(positions) < 4:
         return True
-    extents = numpy.linalg.svd(places - places.mean(axis=0), compute_uv=False)
+    extents = numpy.linalg.svd(positions - positions.mean(axis=0), compute_uv=False)
     return extents[2] <= 1e-5 * extents[0]
 
 
@@ -43,7 +43,7 @@ class RigidObjects:
     # ---- Bodies ----
 
     def body(self, source):
-        """Once for each object; None where it has no rigid body and is none by its role."""
+        """The rigid body of an object, written once; None if the object has neither rigid body settings nor that role."""
         writer, key = self.writer, ("object", source.name)
         known = writer.identifiers.known("rigid", key)
         if known:
@@ -58,15 +58,15 @@ class RigidObjects:
             writer.findings.error("its convex hull is flat or empty, so it can be no rigid part: give it a volume",
                                   object_name=source.name)
             return None
-        places = [writer.space.point(source.matrix_world @ point) for point in points]
-        center = tuple(sum(place[axis] for place in places) / len(places) for axis in range(3))
-        held = holding_bone(source)
+        positions = [writer.space.point(source.matrix_world @ point) for point in points]
+        center = tuple(sum(position[axis] for position in positions) / len(positions) for axis in range(3))
+        parent = holding_bone(source)
         identity = writer.identifiers.of("rigid", key, source.name, source.soft_body_format.rigid_identity)
-        if held:  # so that joints of that bone join this body, not another one
-            writer.identifiers.given.setdefault(("rigid", (held[0].name, held[1])), identity)
+        if parent:  # so that joints of that bone join this body, not another one
+            writer.identifiers.given.setdefault(("rigid", (parent[0].name, parent[1])), identity)
         record = writer.asset.add("rigid_bodies", id=identity, name=source.name,
-                                  bone=writer.skeleton.id(*held) if held else None, center=center)
-        record.add("hull", target="collision_detection", positions=places, polygon_sizes=[len(one) for one in polygons],
+                                  bone=writer.skeleton.id(*parent) if parent else None, center=center)
+        record.add("hull", target="collision_detection", positions=positions, polygon_sizes=[len(one) for one in polygons],
                    polygon_points=[point for one in polygons for point in one])
         if settings is not None:
             record.motion = "dynamic" if settings.type == "ACTIVE" and not settings.kinematic else "kinematic"
@@ -107,21 +107,21 @@ class RigidObjects:
         """A shape that fills the object's bounds."""
         corners = [Vector(corner) for corner in source.bound_box]
         low, high = corners[0], corners[6]
-        place = Matrix.Translation((low + high) / 2)
+        position = Matrix.Translation((low + high) / 2)
         size = high - low
         if shape == "BOX":
-            bmesh.ops.create_cube(made, size=1, matrix=place @ Matrix.Diagonal((*size, 1)))
+            bmesh.ops.create_cube(made, size=1, matrix=position @ Matrix.Diagonal((*size, 1)))
         elif shape == "SPHERE":
-            bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=SEGMENTS // 2, radius=max(size) / 2, matrix=place)
+            bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=SEGMENTS // 2, radius=max(size) / 2, matrix=position)
         elif shape == "CAPSULE":
             radius = max(size.x, size.y) / 2
             for end in (-1, 1):
-                at = place @ Matrix.Translation((0, 0, end * max(size.z / 2 - radius, 0)))
+                at = position @ Matrix.Translation((0, 0, end * max(size.z / 2 - radius, 0)))
                 bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=SEGMENTS // 2, radius=radius, matrix=at)
         else:
             radius = max(size.x, size.y) / 2
             bmesh.ops.create_cone(made, cap_ends=True, segments=SEGMENTS, radius1=radius, radius2=radius if shape == "CYLINDER" else 0,
-                                  depth=size.z, matrix=place)
+                                  depth=size.z, matrix=position)
 
     # ---- Constraints ----
 
@@ -140,7 +140,7 @@ class RigidObjects:
         identity = writer.identifiers.of("joint", ("object", source.name), source.name, source.soft_body_format.joint_identity)
         made = writer.asset.add("joints", id=identity, name=source.name, kind=KINDS[settings.type],
                                 body_a=above.id if above else None, body_b=below.id, collide=not settings.disable_collisions)
-        self.place(made, source, settings, above, below)
+        self.set_frames(made, source, settings, above, below)
         self.limit(made, settings)
         if settings.type == "GENERIC_SPRING":
             self.springs(made, settings)
@@ -150,19 +150,19 @@ class RigidObjects:
             made.break_force = settings.breaking_threshold * self.steps_a_second()
 
     def steps_a_second(self):
-        """Blender's rigid bodies state impulses of a step, which are forces by the step's time."""
+        """Steps per second: Blender's limits are impulses per step, and forces are impulses times this rate."""
         scene = self.writer.scene
         return frame_rate(scene) * scene.rigidbody_world.substeps_per_frame
 
-    def place(self, made, source, settings, above, below):
+    def set_frames(self, made, source, settings, above, below):
         space = self.writer.space
         turn = source.matrix_world.decompose()[1].to_matrix()
         if settings.type == "HINGE":
             turn = turn @ X_FROM_Z
-        place, rotation = space.point(source.matrix_world.translation), space.rotation(turn.to_quaternion())
-        for record, holder in ((made.frame_a, above), (made.frame_b, below)):
-            center = holder.center if holder else (0.0, 0.0, 0.0)
-            record.position = tuple(a - b for a, b in zip(place, center))
+        position, rotation = space.point(source.matrix_world.translation), space.rotation(turn.to_quaternion())
+        for record, part in ((made.frame_a, above), (made.frame_b, below)):
+            center = part.center if part else (0.0, 0.0, 0.0)
+            record.position = tuple(a - b for a, b in zip(position, center))
             record.rotation = rotation
 
     def limit(self, made, settings):
@@ -194,9 +194,9 @@ class RigidObjects:
                                               damping=getattr(settings, f"spring_damping_{kind}")))
 
     def motor(self, made, settings):
-        """A motor drives a velocity with a force that its greatest impulse bounds, and that its damping reaches at 1 m/s or rad/s."""
+        """Writes a motor. It drives a velocity; its largest impulse limits the force, which the damping reaches at 1 m/s or 1 rad/s."""
         for target, kind in (("linear_x", "lin"), ("twist", "ang")):
             if getattr(settings, f"use_motor_{kind}"):
-                most = getattr(settings, f"motor_{kind}_max_impulse") * self.steps_a_second()
+                max_force = getattr(settings, f"motor_{kind}_max_impulse") * self.steps_a_second()
                 made.drives.append(Record("drive", target=target, velocity=getattr(settings, f"motor_{kind}_target_velocity"),
-                                          damping=most, maximum=most))
+                                          damping=max_force, maximum=max_force))

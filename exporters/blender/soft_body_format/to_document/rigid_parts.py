@@ -1,24 +1,24 @@
-"""Rigid bodies of bones, and the joints between them: as the panel, the limit constraints or the IK limits say."""
+"""Writes rigid bodies of bones and the joints between them, from the bone panel, limit constraints or IK limits."""
 
 from dataclasses import dataclass, field
 
 from mathutils import Matrix
 
 from ..sbfmt.document import Record
-from .armatures import hung_on
+from .armatures import parent_in_file
 
 # Columns: where a joint's X, Y and Z lie in its bone's frame. X is the twist axis.
 BALL = Matrix(((0, 0, 1), (1, 0, 0), (0, 1, 0)))
 ABOUT = {"X": Matrix.Identity(3), "Y": BALL, "Z": Matrix(((0, 1, 0), (0, 0, 1), (1, 0, 0)))}
-# The coordinates of a ball joint for a turn about, and a way along, each of the bone's axes.
+# The joint coordinates for rotation about, and displacement along, each of the bone's axes.
 OF_AXIS = {"X": "swing_z", "Y": "twist", "Z": "swing_y"}
 ALONG_AXIS = {"X": "linear_z", "Y": "linear_x", "Z": "linear_y"}
-UNBOUNDED_M = 1e4  # a way that is bounded at one end alone ends here at the other
+UNBOUNDED_M = 1e4  # the missing bound of a displacement that is limited at one end only
 
 
 @dataclass
 class JointLimits:
-    """A joint somebody asked for: kind, axis, bounds as (coordinate, least, most), and where it was said."""
+    """A joint that a setting defines: kind, axis, bounds as (coordinate, min, max), and the setting."""
 
     kind: str
     axis: str = "Y"
@@ -26,16 +26,16 @@ class JointLimits:
 
 
 def joint_limits_of(armature, bone, findings, scale_m=1.0):
-    """The joint of a bone to the one above it, or None. `scale_m` is the length of the armature's unit in metres."""
+    """The joint of a bone to its parent, or None. `scale_m` is the length of the armature's unit in metres."""
     joint = bone.soft_body_format.joint
     if joint.kind != "NONE":
         return of_panel(joint)
     pose = armature.pose.bones[bone.name]
     turns = of_constraints(armature, pose, findings) or of_ik_limits(pose)
-    ways = of_locations(armature, pose, findings, scale_m)
-    if any(high - low > 1e-9 for low, high in ways.values()):
-        return as_slide(turns, ways)
-    return limits_from_bounds(turns) if turns or ways else None
+    slides = of_locations(armature, pose, findings, scale_m)
+    if any(high - low > 1e-9 for low, high in slides.values()):
+        return as_slide(turns, slides)
+    return limits_from_bounds(turns) if turns or slides else None
 
 
 def of_panel(joint):
@@ -51,7 +51,7 @@ def of_panel(joint):
 
 
 def of_constraints(armature, pose, findings):
-    """{axis: (least, most)} of the limit rotation constraints that are on; several cut each other down."""
+    """{axis: (min, max)} of the enabled limit rotation constraints; several are intersected."""
     bounds = {}
     for one in local_limits(armature, pose, "LIMIT_ROTATION", findings):
         for axis in "XYZ":
@@ -61,7 +61,7 @@ def of_constraints(armature, pose, findings):
 
 
 def of_locations(armature, pose, findings, scale_m):
-    """{axis: (least, most)} in metres, of all three axes, of the limit location constraints that are on; {} where there is none."""
+    """{axis: (min, max)} in metres, for all three axes, of the enabled limit location constraints; {} if there is none."""
     bounds = {}
     for one in local_limits(armature, pose, "LIMIT_LOCATION", findings):
         if pose.bone.use_connect:
@@ -76,7 +76,7 @@ def of_locations(armature, pose, findings, scale_m):
 
 
 def local_limits(armature, pose, kind, findings):
-    """Constraints of a kind that are on and measure in the bone's own frame."""
+    """Enabled constraints of a kind that use the bone's own frame."""
     for one in pose.constraints:
         if one.type != kind or one.mute or one.influence == 0:
             continue
@@ -87,8 +87,8 @@ def local_limits(armature, pose, kind, findings):
                              "owner to Local Space", object_name=armature.name, bone_name=pose.name)
 
 
-def cut(bounds, axis, low, high, most):
-    old = bounds.get(axis, (-most, most))
+def cut(bounds, axis, low, high, limit):
+    old = bounds.get(axis, (-limit, limit))
     bounds[axis] = (max(low, old[0]), min(high, old[1]))
 
 
@@ -107,16 +107,16 @@ def locked_of(bounds):
     return [axis for axis, (low, high) in bounds.items() if high - low < 1e-6 and abs(low) < 1e-6]
 
 
-def as_slide(turns, ways):
+def as_slide(turns, slides):
     """A slider or a cylinder where one axis slides and no other turns, else all six coordinates with their bounds."""
     turning = [axis for axis in "XYZ" if axis not in locked_of(turns)]
-    sliding = [axis for axis in "XYZ" if axis not in locked_of(ways)]
+    sliding = [axis for axis in "XYZ" if axis not in locked_of(slides)]
     if len(sliding) == 1 and turning in ([], sliding):
         axis = sliding[0]
-        bounds = [("linear_x", *ways[axis])] + [("twist", *turns[axis]) for _ in turning if axis in turns]
+        bounds = [("linear_x", *slides[axis])] + [("twist", *turns[axis]) for _ in turning if axis in turns]
         return JointLimits("cylindrical" if turning else "prismatic", axis, bounds)
-    return JointLimits("six_dof", "Y", [(ALONG_AXIS[axis], *ways[axis]) for axis in "YZX"
-                                 if ways[axis] != (-UNBOUNDED_M, UNBOUNDED_M)] +
+    return JointLimits("six_dof", "Y", [(ALONG_AXIS[axis], *slides[axis]) for axis in "YZX"
+                                 if slides[axis] != (-UNBOUNDED_M, UNBOUNDED_M)] +
                 [(OF_AXIS[axis], *turns[axis]) for axis in "YZX" if axis in turns])
 
 
@@ -139,7 +139,7 @@ class RigidParts:
         self.writer = writer
 
     def body(self, armature, bone):
-        """The rigid body of a bone; its hull is what the build finds around the bone's sections."""
+        """The rigid body of a bone. A build makes its hull around the bone's sections."""
         writer, key = self.writer, (armature.name, bone.name)
         known = writer.identifiers.known("rigid", key)
         if known:
@@ -159,16 +159,16 @@ class RigidParts:
         for bone in armature.data.bones:
             if bone.name in wanted:
                 self.body(armature, bone)
-            if limits_by_bone[bone.name] is not None and hung_on(bone) is not None:
+            if limits_by_bone[bone.name] is not None and parent_in_file(bone) is not None:
                 self.joint(armature, bone, limits_by_bone[bone.name], self.above(armature, bone, wanted))
 
     def above(self, armature, bone, wanted):
-        """The rigid body a bone hangs on: of the nearest bone above that has one, else of its parent."""
-        parent = hung_on(bone)
+        """The rigid body that a bone is jointed to: that of the nearest ancestor with one, else that of its parent."""
+        parent = parent_in_file(bone)
         while parent is not None and parent.name not in wanted and \
                 not self.writer.identifiers.known("rigid", (armature.name, parent.name)):
-            parent = hung_on(parent)
-        return self.body(armature, parent if parent is not None else hung_on(bone))
+            parent = parent_in_file(parent)
+        return self.body(armature, parent if parent is not None else parent_in_file(bone))
 
     def joint(self, armature, bone, limits, above):
         writer = self.writer
@@ -176,16 +176,16 @@ class RigidParts:
         frame = armature.matrix_world @ bone.matrix_local
         turn = frame.to_3x3().normalized() @ ABOUT[limits.axis]
         rotation = writer.space.rotation(turn.to_quaternion())
-        place = writer.space.point(frame.translation)
+        position = writer.space.point(frame.translation)
         made = writer.asset.add("joints", id=writer.identifiers.of("joint", (armature.name, bone.name), bone.name),
                                 name=bone.name, kind=limits.kind, body_a=above.id, body_b=below.id)
-        for record, holder in ((made.frame_a, above), (made.frame_b, below)):
-            record.position = tuple(a - b for a, b in zip(place, holder.center))
+        for record, part in ((made.frame_a, above), (made.frame_b, below)):
+            record.position = tuple(a - b for a, b in zip(position, part.center))
             record.rotation = rotation
         settings = bone.soft_body_format.joint
         for target, low, high in limits.bounds:
             if low > high:
-                writer.findings.error(f"the least {target} ({low:.3g}) is above the most ({high:.3g}): exchange them",
+                writer.findings.error(f"the minimum {target} ({low:.3g}) is above the maximum ({high:.3g}): exchange them",
                                       object_name=armature.name, bone_name=bone.name, code="LIMIT_ORDER")
                 continue
             made.limits.append(Record("limit", target=target, min=low, max=high, stiffness=settings.limit_stiffness,

@@ -1,16 +1,16 @@
-"""What an object is for: as its panel says, or as the scene shows."""
+"""Finds the role of an object: from its panel, or from the scene."""
 
-SURFACES = {"CURVE": "curve", "SURFACE": "NURBS surface", "FONT": "text", "META": "metaball"}  # what evaluates to meshes
+SURFACES = {"CURVE": "curve", "SURFACE": "NURBS surface", "FONT": "text", "META": "metaball"}  # types of objects that evaluate to meshes
 RENDER, SECTION, SOFT, COLLISION, IGNORE = "RENDER", "SECTION", "SOFT", "COLLISION", "IGNORE"
 
 
 def modifier(source, kind):
-    """The object's modifier of a kind that is on, or None."""
+    """The object's enabled modifier of a kind, or None."""
     return next((one for one in source.modifiers if one.type == kind and one.show_viewport), None)
 
 
 def armature_of(source):
-    """The armature that deforms a mesh by its weights, or None."""
+    """The armature that deforms a mesh by vertex weights, or None."""
     found = modifier(source, "ARMATURE")
     if found is not None and found.object is not None:
         return found.object
@@ -21,7 +21,7 @@ def armature_of(source):
 
 
 def holding_bone(source):
-    """(armature object, bone name) of the bone that a mesh is parented to, itself or through its parents, or None."""
+    """(armature object, bone name) of the bone that a mesh is parented to, directly or through its parents, or None."""
     while source is not None:
         if source.parent_type == "BONE" and source.parent is not None and source.parent.type == "ARMATURE":
             return source.parent, source.parent_bone
@@ -30,8 +30,8 @@ def holding_bone(source):
 
 
 def shown_role(source):
-    """What the scene shows: soft and cloth modifiers make soft bodies, a bone makes a section, weights a skin, rigid body settings or
-    collision settings alone a rigid part, and what nothing holds is soft."""
+    """The role that the scene implies. Soft body and cloth modifiers make a soft body, a parent bone a section, vertex weights a skin.
+    Only rigid body or collision settings make a rigid part. Any other mesh is a soft body."""
     if modifier(source, "SOFT_BODY") or modifier(source, "CLOTH"):
         return SOFT
     if source.rigid_body is not None:

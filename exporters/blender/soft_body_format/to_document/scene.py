@@ -1,4 +1,4 @@
-"""A Blender scene as the format's source parts."""
+"""Writes a Blender scene as the format's source parts."""
 
 import os
 from dataclasses import dataclass
@@ -32,16 +32,16 @@ COLLIDER_LEFT_OUT = (("damping", "damping of soft bodies", 0.1), ("absorption", 
 
 @dataclass
 class Options:
-    """What of a scene is exported, and how."""
+    """Options of an export: which objects, and how."""
 
     selected_only: bool = False
     collection: str = ""          # name; empty: all
     apply_modifiers: bool = True
-    textures: str = "COPY"        # into a folder beside the file, or EMBED
+    textures: str = "COPY"        # COPY: into a folder beside the file; or EMBED
 
 
 class SceneWriter:
-    """One export: the document as it grows, and what its parts share. Every writer module takes this."""
+    """State of one export: the document, and data that its parts share. Every writer module takes this."""
 
     def __init__(self, context, options, findings):
         self.context, self.options, self.findings = context, options, findings
@@ -51,11 +51,11 @@ class SceneWriter:
         self.materials = Materials(self.asset, self.identifiers, options.textures, findings)
         self.chosen = self.objects = chosen_objects(context, options)
         self.stand_ins = self.depsgraph = None
-        self.felt_fields = {}  # by object: (m/s² of a force field of strength 1, 1/s of a drag of 1) that it takes in Blender
+        self.field_effects = {}  # by object: (m/s² in a force field of strength 1, 1/s in a drag of 1), as in Blender
         self.sort()
 
     def sort(self):
-        """What each mesh is for: asked before modifiers are turned off for the rest pose."""
+        """Finds the role of each mesh, before modifiers are turned off for the rest pose."""
         meshes = self.meshes()
         self.roles = {one.name: role_of(one) for one in meshes}
         self.armatures = {one.name: armature_of(one) for one in meshes}
@@ -67,18 +67,18 @@ class SceneWriter:
         return [one for one in self.objects if one.type == kind]
 
     def meshes(self):
-        """What goes out as meshes."""
+        """The objects that are exported as meshes."""
         return [one for one in self.objects if one.type == "MESH" or one.type in SURFACES and self.options.apply_modifiers]
 
     def write(self):
-        """The whole document. What is wrong joins the findings; where they hold an error it is not to be used."""
+        """Writes the document. Adds faults to the findings. Do not use the document if they hold an error."""
         with with_stand_ins(self.context, self.chosen) as (objects, stand_ins):
             self.objects, self.stand_ins = objects, stand_ins
             self.sort()
             self.write_objects()
             self.objects = self.chosen
         if stand_ins is not None:
-            for found in self.findings:  # by the name of what stays in the scene
+            for found in self.findings:  # by the name of the object in the scene
                 found.object_name = stand_ins.owners.get(found.object_name, found.object_name)
         return self.asset
 
@@ -88,7 +88,7 @@ class SceneWriter:
             if source.mode == "EDIT":
                 source.update_from_editmode()
         with at_rest(self.objects, self.context.view_layer), instances_realized(self.meshes(), self.context.view_layer):
-            self.objects = soundness.look(self)
+            self.objects = soundness.find_sound_objects(self)
             self.depsgraph = self.context.evaluated_depsgraph_get()
             for armature in self.of_type("ARMATURE"):
                 write_bones(self.asset, armature, self.space, self.identifiers, self.skeleton)
@@ -120,7 +120,7 @@ class SceneWriter:
             info.add("sources", path=os.path.basename(bpy.data.filepath))
 
     def exported(self, source):
-        """The object that goes out for one that a panel names: itself, or the first copy of it."""
+        """The exported object for one that a panel names: itself, or its first copy."""
         if source is None or source in self.objects or self.stand_ins is None:
             return source
         return self.stand_ins.of.get(source.name_full, source)
@@ -139,16 +139,16 @@ class SceneWriter:
                 self.write_body(source, geometry)
 
     def fill_collider(self, body, source):
-        """Thickness and friction of Collision physics: how a surface meets others is the same said of what it is."""
+        """Writes thickness and friction of Collision physics as the body's own contact settings."""
         if source.name in self.colliders:
             scale = self.space.unit_m * source.matrix_world.median_scale
             body.collision.outer_thickness = source.collision.thickness_outer * scale
             body.collision.inner_thickness = source.collision.thickness_inner * scale
             body.attributes.friction = source.collision.cloth_friction * COLLIDER_FRICTION
-            self.tell_of_collider(source)
+            self.report_collider_settings(source)
 
-    def tell_of_collider(self, source):
-        """What Collision physics says to particles and force fields, and what the format's contact has none of."""
+    def report_collider_settings(self, source):
+        """Reports Collision settings that the format does not have, such as those for particles and force fields."""
         left_out = [label for name, label, idle in COLLIDER_LEFT_OUT if abs(getattr(source.collision, name) - idle) > 1e-6]
         if left_out:
             self.findings.info(f"settings of its collision without a counterpart are left out: {', '.join(left_out)}",
@@ -170,29 +170,29 @@ class SceneWriter:
         armature = self.armatures[source.name]
         if role in (RENDER, COLLISION) and armature is not None:
             fill_skin(record, source, mesh, self.bones_of_groups(source, armature), self.findings)
-        held = self.holder(source)
-        if held is not None and role in (RENDER, COLLISION) and record.skin is None:
-            record.bone = held
+        bone = self.bone_of_object(source)
+        if bone is not None and role in (RENDER, COLLISION) and record.skin is None:
+            record.bone = bone
 
     def fill_materials(self, record, source, geometry):
         slots = materials_of(source, geometry.mesh)
         if not any(slots):
             return
-        places = numpy.zeros(int(geometry.polygon_materials.max(initial=0)) + 1, dtype=numpy.uint32)
+        number_of_slot = numpy.zeros(int(geometry.polygon_materials.max(initial=0)) + 1, dtype=numpy.uint32)
         for index in numpy.unique(geometry.polygon_materials).tolist():
             material = slots[index] if index < len(slots) else None
             if material is None:
                 self.findings.warning(f"faces of material slot {index + 1} have no material; they take the first one's",
                                       object_name=source.name)
                 continue
-            places[index] = len(record.material_slots)
+            number_of_slot[index] = len(record.material_slots)
             record.add("material_slots", material=self.materials.id(material))
-        numbers = places[geometry.polygon_materials]
+        numbers = number_of_slot[geometry.polygon_materials]
         if numbers.any():
             record.polygon_materials = numbers
 
     def bones_of_groups(self, source, armature):
-        """{vertex group index: number of the bone of its name}."""
+        """{index of a vertex group: index of the bone with its name}."""
         found = {}
         for group in source.vertex_groups:
             number = self.skeleton.number(armature, group.name)
@@ -200,15 +200,15 @@ class SceneWriter:
                 found[group.index] = number
         return found
 
-    def holder(self, source):
-        """The id of the bone that a mesh hangs on, or None."""
-        held = holding_bone(source)
-        return self.skeleton.id(*held) if held else None
+    def bone_of_object(self, source):
+        """The id of the bone that a mesh is parented to, or None."""
+        bone = holding_bone(source)
+        return self.skeleton.id(*bone) if bone else None
 
     def write_body(self, source, geometry):
         body = self.asset.add("soft_bodies", id=self.body_id(source), name=source.name)
         fill_polygons(body.surface, geometry, "surface")
-        body.bone = self.holder(source)
+        body.bone = self.bone_of_object(source)
         settings, soft, layer = source.soft_body_format, self.soft[source.name], self.cloth[source.name]
         if soft is not None and not settings.own_values:
             soft_bodies.fill_from_soft_body(self, body, source, geometry, soft)

@@ -1,11 +1,11 @@
-"""What feeds a socket of a principled shader: an image, a factor on it, a cutoff. Import makes such nodes, export reads them."""
+"""Inputs of a principled shader's sockets: an image, a factor on it, a cutoff. Import makes these nodes, export reads them."""
 
 from dataclasses import dataclass
 
 
 @dataclass
 class Source:
-    """Where a socket's value comes from. `factor` is a number, or three for a colour; `cutoff` a threshold, or None."""
+    """The source of a socket's value. `factor` is a number, or three for a colour; `cutoff` is a threshold, or None."""
 
     image: object = None
     factor: object = 1.0
@@ -13,12 +13,12 @@ class Source:
 
 
 def active(sockets, name):
-    """The socket of that name that is in use: nodes that mix hold one for each kind of data."""
+    """The enabled socket of that name. Mix nodes have one socket for each type of data."""
     return next((one for one in sockets if one.name == name and one.enabled), None)
 
 
 def constant(socket):
-    """The number or colour that stands in a socket."""
+    """The number or colour in a socket."""
     value = socket.default_value
     return tuple(value)[:3] if hasattr(value, "__len__") else value
 
@@ -42,7 +42,7 @@ def multiplies(node):
 
 
 def product(one, other):
-    """Of two factors, each a number or three."""
+    """The product of two factors, each a number or three."""
     if isinstance(one, tuple) or isinstance(other, tuple):
         first, second = (value if isinstance(value, tuple) else (value, ) * 3 for value in (one, other))
         return tuple(a * b for a, b in zip(first, second))
@@ -93,7 +93,7 @@ class Nodes:
         self.tree.links.new(start, end)
 
     def image(self, image, colors=True):
-        """One node an image and a kind of data."""
+        """The node of an image and a kind of data, made once."""
         if (image.name, colors) not in self.images:
             node = self.images[image.name, colors] = self.new("ShaderNodeTexImage", image=image)
             if not colors:
@@ -117,7 +117,7 @@ class Nodes:
         return self.by(start, factor, "MULTIPLY")
 
     def by(self, start, number, operation):
-        """A number by a constant; `start` is a socket, or a number too."""
+        """A number times a constant; `start` is a socket or a number."""
         node = self.new("ShaderNodeMath", operation=operation, location=(-300, 0))
         if isinstance(start, float):
             node.inputs[0].default_value = start

@@ -1,4 +1,4 @@
-"""Blender's Soft Body modifier: its edges as a level of springs, its goal as pins, both in SI units."""
+"""Writes Blender's Soft Body modifier: edges as a level of springs and the goal as pins, in SI units."""
 
 import math
 
@@ -6,15 +6,15 @@ import numpy
 
 from ..sbfmt.document import Record
 from ..space import frame_rate
-from .blender_units import HELD_GOAL, TIME_UNIT_S, air_density, drag_on_soft_body, edge_stiffness, field_on_soft_body, friction, goal_of, \
+from .blender_units import PINNED_GOAL, TIME_UNIT_S, air_density, drag_on_soft_body, edge_stiffness, field_on_soft_body, friction, goal_of, \
     goal_stiffness, push_ratio
-from .pins import by_holder
+from .pins import group_by_bone
 from .roles import modifier
 
-FRICTION_ALONE = 1e-3  # N/m of a goal that holds back and does not pull: next to nothing, since none would be the body's own
-DEFAULT_ERROR = 0.1  # of Blender's error limit, in its units
-DEFAULT_STEPS = (10, 300)  # a frame, least and most
-STIFF_QUAD_LIMIT = 1e-4  # below it Blender's shear slider makes no diagonals worth having
+FRICTION_ALONE = 1e-3  # N/m of a goal with friction and no stiffness: nearly 0, because 0 means the body's own stiffness
+DEFAULT_ERROR = 0.1  # Blender's error limit, in its units
+DEFAULT_STEPS = (10, 300)  # per frame, minimum and maximum
+STIFF_QUAD_LIMIT = 1e-4  # below it diagonals from Blender's shear slider have no effect
 
 
 def settings_of(source):
@@ -23,14 +23,14 @@ def settings_of(source):
 
 
 def fill_from_soft_body(writer, body, source, geometry, soft):
-    """The whole translation; what has no counterpart is said."""
+    """Writes all settings of the modifier, and reports those without a counterpart."""
     count = len(geometry.positions)
     masses = vertex_masses(source, geometry.mesh, soft)
     attributes = body.attributes
     attributes.mass = float(masses.sum())
     attributes.media_friction = friction(soft.friction) / (attributes.mass / count)
     point_kg = attributes.mass / count
-    writer.felt_fields[source.name] = (field_on_soft_body(point_kg, frame_rate(writer.scene)), drag_on_soft_body(point_kg))
+    writer.field_effects[source.name] = (field_on_soft_body(point_kg, frame_rate(writer.scene)), drag_on_soft_body(point_kg))
     attributes.damping_ratio = 0
     attributes.gravity_scale = soft.effector_weights.gravity
     if soft.plastic:
@@ -39,7 +39,7 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
         body.collision.self = True
         body.collision.particle_radius = ball_radius(soft, geometry, writer.space.unit_m)
         if (soft.ball_stiff, soft.ball_damp) != (1.0, 0.5):
-            writer.findings.info("stiffness and dampening of its self collision are left out: the file's bodies let nothing through",
+            writer.findings.info("stiffness and dampening of its self collision are left out: contact in the file is rigid",
                                  object_name=source.name)
     if soft.use_edges:
         write_level(writer, body, source, geometry, soft, masses)
@@ -49,28 +49,28 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
         writer.findings.warning(f"its edges push ({soft.push:.2f}) and do not pull, which springs of the format can't: give them a little "
                                 "pull", object_name=source.name)
     if soft.use_edges and soft.use_stiff_quads:
-        tell_of_polygons(writer, source, geometry)
+        report_large_polygons(writer, source, geometry)
     if soft.aero and soft.use_edges:
         add_air(writer, source, geometry, soft)
 
 
 def add_air(writer, source, geometry, soft):
-    """Aerodynamics as a medium of the environment, of which there is one: the densest that a body asks for."""
+    """Writes aerodynamics as the medium of the environment. There is one medium: the densest that a body needs."""
     area = area_of(geometry.mesh, writer.space.unit_m * source.matrix_world.median_scale)
-    asked = air_density(soft.aero, len(geometry.mesh.edges), max(area, 1e-12))
+    density = air_density(soft.aero, len(geometry.mesh.edges), max(area, 1e-12))
     environment = writer.asset.environment
-    if environment.media_density and abs(environment.media_density - asked) > 0.01 * asked:
-        writer.findings.info(f"its aerodynamics ask for a medium of {asked:.3g} kg/m³ and another body's for "
+    if environment.media_density and abs(environment.media_density - density) > 0.01 * density:
+        writer.findings.info(f"its aerodynamics need a medium of {density:.3g} kg/m³ and another body's for "
                              f"{environment.media_density:.3g}; the scene gets the denser one", object_name=source.name)
-    environment.media_density = max(environment.media_density, asked)
+    environment.media_density = max(environment.media_density, density)
 
 
 def area_of(mesh, world_scale):
     return sum(polygon.area for polygon in mesh.polygons) * world_scale**2
 
 
-def tell_of_polygons(writer, source, geometry):
-    """Stiff quads need quads: triangles are stiff by themselves, larger polygons shear."""
+def report_large_polygons(writer, source, geometry):
+    """Reports polygons for which stiff quads do nothing: larger polygons still shear. Triangles are stiff by themselves."""
     large = numpy.flatnonzero(geometry.polygon_sizes > 4)
     if len(large):
         first = numpy.cumsum(geometry.polygon_sizes.astype(numpy.int64)) - geometry.polygon_sizes
@@ -88,7 +88,7 @@ def vertex_masses(source, mesh, soft):
 
 
 def weights_of(source, mesh, group_name):
-    """The weight of every vertex in a group, 0 outside it; None where there is no such group."""
+    """The weight of every vertex in a group, 0 outside it; None if there is no such group."""
     group = source.vertex_groups.get(group_name) if group_name else None
     if group is None:
         return None
@@ -106,7 +106,7 @@ def mean_edge(geometry):
 
 
 def ball_radius(soft, geometry, unit_m):
-    """m around each vertex: Blender's balls, which are as large as the edges that meet there ask for, have one size in the format."""
+    """The radius of collision around vertices in m. Blender computes one per vertex from its edges; the format has one per body."""
     found = lengths(geometry, edges_of(geometry)) if len(geometry.mesh.edges) else numpy.zeros(1)
     edge = {"MANUAL": unit_m, "MINIMAL": found.min(), "MAXIMAL": found.max(), "MINMAX": (found.min() + found.max()) / 2}
     return float(soft.ball_size * edge.get(soft.collision_type, found.mean()))
@@ -119,8 +119,8 @@ def edges_of(geometry):
 
 
 def lengths(geometry, ends):
-    places = geometry.positions.astype(numpy.float64)
-    return numpy.maximum(numpy.linalg.norm(places[ends[:, 0]] - places[ends[:, 1]], axis=1), 1e-9)
+    positions = geometry.positions.astype(numpy.float64)
+    return numpy.maximum(numpy.linalg.norm(positions[ends[:, 0]] - positions[ends[:, 1]], axis=1), 1e-9)
 
 
 def diagonals_of(geometry):
@@ -133,7 +133,7 @@ def diagonals_of(geometry):
 
 
 def second_neighbours(ends, joined, count):
-    """Pairs two edges apart, once each, that nothing joins yet: Blender bends by them."""
+    """Pairs of vertices two edges apart that no spring joins yet, once each. Blender's bending springs join them."""
     neighbours = [[] for _ in range(count)]
     for a, b in ends.tolist():
         neighbours[a].append(b)
@@ -144,7 +144,7 @@ def second_neighbours(ends, joined, count):
 
 
 def add_level(writer, body, source, geometry, name, masses):
-    """A level over the surface's own points, which a build leaves as it is."""
+    """A level over the surface's own points, which a build does not change."""
     level = body.add("levels", name=name, positions=geometry.positions, masses=masses.astype(numpy.float32))
     mesh = writer.identifiers.known("mesh", source.name)
     if mesh is not None:
@@ -168,23 +168,23 @@ def write_level(writer, body, source, geometry, soft, masses):
 
 
 def write_steps(writer, simulation, soft):
-    """Blender's own scheme, with as many steps as its error control asks for. Who leaves a setting where Blender has it has not asked
-    for so coarse a one."""
+    """Writes Blender's own scheme, with as many steps as its error control needs. A setting with Blender's default value is ignored,
+    because it would be too coarse."""
     simulation.scheme = "heun"
     if abs(soft.error_threshold - DEFAULT_ERROR) > 1e-6:
         simulation.step_error = soft.error_threshold * writer.space.unit_m
-    frames = writer.asset.environment.control_tick / TIME_UNIT_S  # of Blender's simulation in a control tick
+    frames = writer.asset.environment.control_tick / TIME_UNIT_S  # Blender's simulation time per control tick
     if soft.step_min != DEFAULT_STEPS[0]:
         simulation.substeps_least = math.ceil(soft.step_min * frames)
     if soft.step_max != DEFAULT_STEPS[1]:
         simulation.substeps_most = max(math.ceil(soft.step_max * frames), 1)
 
 
-def add_springs(level, kind, geometry, ends, soft, scale, factors, share=1.0):
+def add_springs(level, kind, geometry, ends, soft, scale, factors, fraction=1.0):
     if not len(ends):
         return
     rest, ratio = lengths(geometry, ends) * scale, push_ratio(soft)
-    stiffness = numpy.array([edge_stiffness(soft.pull, length) for length in rest]) * share
+    stiffness = numpy.array([edge_stiffness(soft.pull, length) for length in rest]) * fraction
     if factors is not None:
         stiffness *= ((factors[ends[:, 0]] + factors[ends[:, 1]]) / 2)**4
     level.add("springs", kind=kind, ends=ends, rest_lengths=rest.astype(numpy.float32) if scale != 1 else [],
@@ -193,28 +193,28 @@ def add_springs(level, kind, geometry, ends, soft, scale, factors, share=1.0):
 
 
 def write_goal(writer, body, source, geometry, soft):
-    """Pins that pull as the goal does. The set's stiffness is that of the strongest; weights are shares of it. What Blender holds fast
-    is held. Its friction holds back every point alike, however weak its goal: where they differ it is a set of its own."""
+    """Writes pins with the stiffness of the goal. The set has the largest stiffness; weights are fractions of it. Points that Blender
+    pins rigidly are pinned rigidly. Blender's friction is the same for every goal; if stiffnesses differ it needs its own set."""
     weights = weights_of(source, geometry.mesh, soft.vertex_group_goal)
     if weights is None:
         weights = numpy.ones(len(geometry.positions))
     pulls = numpy.array([goal_stiffness(weight, soft) for weight in weights]) / writer.space.unit_m
-    fast = numpy.array([goal_of(weight, soft) >= HELD_GOAL for weight in weights])
-    for bone, points in by_holder(writer, source, geometry.mesh, numpy.flatnonzero(fast)):
+    fast = numpy.array([goal_of(weight, soft) >= PINNED_GOAL for weight in weights])
+    for bone, points in group_by_bone(writer, source, geometry.mesh, numpy.flatnonzero(fast)):
         if len(points):
             body.pins.append(Record("pin_set", name="Goal", bone=bone, points=points))
     drawn = numpy.flatnonzero((pulls > 0) & ~fast)
     loose = numpy.flatnonzero(~fast)
-    alike = len(drawn) == len(loose) and len(set(pulls[drawn])) == 1
-    held_back = friction(soft.goal_friction)
+    uniform = len(drawn) == len(loose) and len(set(pulls[drawn])) == 1
+    goal_damping = friction(soft.goal_friction)
     if len(drawn):
-        add_goal(writer, body, source, geometry, drawn, pulls, held_back if alike else 0.0)
-    if held_back and not alike:
-        add_goal(writer, body, source, geometry, loose, numpy.full(len(pulls), FRICTION_ALONE), held_back)
+        add_goal(writer, body, source, geometry, drawn, pulls, goal_damping if uniform else 0.0)
+    if goal_damping and not uniform:
+        add_goal(writer, body, source, geometry, loose, numpy.full(len(pulls), FRICTION_ALONE), goal_damping)
 
 
 def add_goal(writer, body, source, geometry, points, pulls, damping):
-    most = float(pulls[points].max()) * 1.0001  # so that the strongest is a spring still: weight 1 would be kinematic
-    for bone, found in by_holder(writer, source, geometry.mesh, points):
+    max_stiffness = float(pulls[points].max()) * 1.0001  # the factor keeps weights below 1, which would be kinematic
+    for bone, found in group_by_bone(writer, source, geometry.mesh, points):
         body.pins.append(Record("pin_set", name="Goal" if pulls[found].max() > FRICTION_ALONE else "Goal friction", bone=bone, points=found,
-                                weights=(pulls[found] / most).astype("f4"), stiffness=most, damping=damping))
+                                weights=(pulls[found] / max_stiffness).astype("f4"), stiffness=max_stiffness, damping=damping))

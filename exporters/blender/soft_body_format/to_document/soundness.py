@@ -1,21 +1,21 @@
-"""What is wrong with the objects themselves, before anything of them is written."""
+"""Checks objects before anything is written: scale, type, geometry, libraries, weights."""
 
 import os
 
 import bpy
 import numpy
 
-from .armatures import hung_on
+from .armatures import parent_in_file
 from .chosen import is_instance
 from .roles import IGNORE, SURFACES
 
 NO_SURFACES = {"CURVES": "hair", "POINTCLOUD": "point cloud", "VOLUME": "volume", "GPENCIL": "drawing", "GREASEPENCIL": "drawing"}
-LEAST_VOLUME = 1e-18  # of a cube of side one, in metres
+MIN_VOLUME = 1e-18  # of a cube of side one, in metres
 
 
-def look(writer):
-    """Says what is wrong; gives the objects that can be written."""
-    writer_sees_libraries(writer)
+def find_sound_objects(writer):
+    """Reports faults and returns the objects that can be written."""
+    report_missing_libraries(writer)
     return [one for one in writer.objects if sound(writer, one)]
 
 
@@ -29,7 +29,7 @@ def sound(writer, source):
     if source.type not in ("MESH", "ARMATURE", *SURFACES) or writer.roles.get(source.name) == IGNORE:
         return True
     volume = world.to_3x3().determinant()
-    if abs(volume) < LEAST_VOLUME or volume != volume:
+    if abs(volume) < MIN_VOLUME or volume != volume:
         findings.error("its scale is zero along an axis, which leaves nothing of it: set it to 1 in Object > Transform",
                        object_name=source.name)
         return False
@@ -43,18 +43,18 @@ def sound(writer, source):
 
 
 def without_faces(writer, source):
-    """Says why nothing of it goes out."""
+    """Reports why the object is not exported."""
     if source.type == "META":
-        writer.findings.info("is a metaball that flows into another of its family, and goes out with that", object_name=source.name)
+        writer.findings.info("is a metaball that belongs to another one's family, and is exported with that one", object_name=source.name)
     elif source.type in SURFACES and source != writer.scene.soft_body_format.preview.curve:
-        writer.findings.info(f"is a {SURFACES[source.type]} without a surface, so nothing of it is seen; it is left out. Geometry > Bevel "
+        writer.findings.info(f"is a {SURFACES[source.type]} without a surface, so it is not visible; it is left out. Geometry > Bevel "
                              "gives it one", object_name=source.name)
     elif source.type == "MESH":
-        writer.findings.warning("has no faces, so nothing of it is seen or simulated; it is left out", object_name=source.name)
+        writer.findings.warning("has no faces, so it is neither visible nor simulated; it is left out", object_name=source.name)
 
 
 def instances_left_out(writer):
-    """Objects that show others as instances of particles, vertices or faces."""
+    """Reports objects that instance others on particles, vertices or faces."""
     counts, names = {}, {one.name for one in writer.objects if writer.roles.get(one.name) != IGNORE}
     for one in writer.depsgraph.object_instances:
         parent = one.parent.original if one.is_instance and one.parent is not None else None
@@ -72,8 +72,8 @@ def sound_armature(findings, source, volume):
         return False
     for bone in source.data.bones:
         wanted = bone.soft_body_format.hangs_on
-        if wanted and (hung_on(bone) is None or hung_on(bone).name != wanted):
-            findings.warning(f"is to hang on {wanted!r}, which is not there or hangs below it: it stays on its parent. Choose another in "
+        if wanted and (parent_in_file(bone) is None or parent_in_file(bone).name != wanted):
+            findings.warning(f"has {wanted!r} under Hangs on, which does not exist or is its descendant: it keeps its parent. Choose another in "
                              "Bone > Soft body format", object_name=source.name, bone_name=bone.name)
     scale = source.matrix_world.to_scale()
     if max(scale) > 1.001 * min(scale):
@@ -82,39 +82,39 @@ def sound_armature(findings, source, volume):
     return True
 
 
-def writer_sees_libraries(writer):
-    """Libraries that are gone: what was linked from them is empty."""
-    gone = {one for one in bpy.data.libraries if not one.packed_file and
+def report_missing_libraries(writer):
+    """Reports missing libraries. Objects linked from them are empty."""
+    missing = {one for one in bpy.data.libraries if not one.packed_file and
             not os.path.isfile(bpy.path.abspath(one.filepath, library=one.parent))}
     for source in writer.objects:
-        found = {one.library for one in (source, source.data, source.instance_collection) if one is not None} & gone
+        found = {one.library for one in (source, source.data, source.instance_collection) if one is not None} & missing
         for library in found:
             writer.findings.error(f"is linked from {library.filepath}, which is not there: find it with File > External Data > Find "
                                   "Missing Files, or remove the object", object_name=source.name)
 
 
 def finite(findings, source, positions):
-    """Whether all vertices have a place."""
+    """Whether all vertices have finite coordinates."""
     lost = numpy.flatnonzero(~numpy.isfinite(positions).all(axis=1))
     if len(lost):
-        findings.error(f"{len(lost)} vertices have no finite place: move or remove them", object_name=source.name,
+        findings.error(f"{len(lost)} vertices have coordinates that are not finite: move or remove them", object_name=source.name,
                        vertices=lost.tolist())
     return not len(lost)
 
 
 def bones_without_section(writer, armature):
-    """Bones that should deform and hold neither a part nor a weight, where a bone above them does: those above all that is held, as
-    roots and controls, move the rest."""
+    """Reports deforming bones without a part or a weight below a bone that has one. Bones above all others, such as roots and
+    controls, are not reported."""
     ids = {bone.name: writer.skeleton.id(armature, bone.name) for bone in armature.data.bones}
-    held = {body.bone for body in writer.asset.soft_bodies} | {body.bone for body in writer.asset.rigid_bodies if body.hull}
-    held |= {mesh.bone for mesh in writer.asset.render_meshes}
+    used = {body.bone for body in writer.asset.soft_bodies} | {body.bone for body in writer.asset.rigid_bodies if body.hull}
+    used |= {mesh.bone for mesh in writer.asset.render_meshes}
     for mesh in writer.asset.render_meshes:
         if mesh.skin is not None:
-            held |= {writer.asset.bones[number].id for number in set(mesh.skin.bones)}
-    if not held & set(ids.values()):
+            used |= {writer.asset.bones[number].id for number in set(mesh.skin.bones)}
+    if not used & set(ids.values()):
         return
-    empty = [bone.name for bone in armature.data.bones if bone.use_deform and bone.children and ids[bone.name] not in held and
-             any(ids[one.name] in held for one in bone.parent_recursive)]
+    empty = [bone.name for bone in armature.data.bones if bone.use_deform and bone.children and ids[bone.name] not in used and
+             any(ids[one.name] in used for one in bone.parent_recursive)]
     if empty:
         writer.findings.warning(f"no section hangs on {', '.join(empty)}, and no vertex has a weight of theirs: parent parts to them "
                                 "(Ctrl+P > Bone), paint weights, or turn off Deform in the bones' properties",

@@ -1,12 +1,12 @@
-"""The format's objects in plain Python, without the library: made, read from canonical XML and written to it.
+"""The format's objects in plain Python, without the library: make them, read and write them as canonical XML.
 
     from sbfmt.document import Record, save_whole, to_xml
     asset = Record("asset")
     asset.add("bones", id="hip", head=(0, 1, 0), length=0.2)
     save_whole("hip.sbf", to_xml(asset))
 
-What fields there are, and what they mean, says spec/reference.md; `elements` has them as a table. Nothing is checked but
-types: that is what `sbfmt validate` and `Asset.validate` are for.
+spec/reference.md describes the fields; `elements` has them as a table. Only types are checked here; `sbfmt validate` and
+`Asset.validate` check the rest.
 """
 
 from .reading import from_xml

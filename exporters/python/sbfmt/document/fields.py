@@ -19,8 +19,8 @@ FieldBase = namedtuple("FieldBase", "name type argument default required xml wra
 
 
 class Field(FieldBase):
-    """One field of an element. `type` is the schema's word; `argument` an enum's words, a child's element or a reference's
-    collection; `xml` the child's element name; `fixed` the child's field and the value that it always has."""
+    """One field of an element. `type` is the schema's type. `argument` is an enum's values, a child's element or a reference's
+    collection. `xml` is the child's element name. `fixed` is the child's field and the value that it always has."""
 
     __slots__ = ()
 
@@ -45,7 +45,7 @@ class Field(FieldBase):
 
     @property
     def typecode(self):
-        """Of the numbers, as the module `array` names it; None where they are no numbers."""
+        """The type code of the numbers in the module `array`; None if they are not numbers."""
         item = self.type[:-2] if self.type.endswith("[]") else self.type
         if item in ("float", "vec2", "vec3", "vec4", "quat"):
             return "f"
@@ -57,7 +57,7 @@ class Field(FieldBase):
 
 
 class Element:
-    """An element: its own name, the name XML gives it, and its fields in order."""
+    """An element: its name, its name in XML, and its fields in order."""
 
     def __init__(self, name, xml, fields):
         self.name, self.xml, self.fields = name, xml, fields

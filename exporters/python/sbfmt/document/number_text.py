@@ -1,4 +1,4 @@
-"""Numbers as the canonical form writes them: section 4.2 of spec/sbf.md, point 5."""
+"""Formats numbers as in the canonical form: section 4.2 of spec/sbf.md, point 5."""
 
 import math
 import struct
@@ -28,7 +28,7 @@ def float_words(values):
 
 
 def unequal(words, values):
-    """Numbers of those words that do not read back, or only perhaps: where the binary64 lies halfway between two binary32."""
+    """Indices of the texts that do not read back as the same number, or may not: the binary64 is halfway between two binary32."""
     doubles = array("d", map(float, words))
     bits = array("Q", doubles.tobytes())
     back = array("f", doubles)
@@ -59,7 +59,7 @@ def float_word(value):
 
 
 def reads_back(text, value):
-    """Whether a correct reader takes the text for this binary32: it lies nearer to it than to both neighbours."""
+    """Whether a correct reader reads the text as this binary32: the text is closer to it than to both neighbours."""
     number, bits = abs(Fraction(text)), struct.unpack("<I", struct.pack("<f", abs(value)))[0]
     own = Fraction(of_bits(bits))
     near = [abs(number - own)] + [abs(number - Fraction(of_bits(other))) for other in (bits - 1, bits + 1) if other >= 0]
@@ -67,7 +67,7 @@ def reads_back(text, value):
 
 
 def of_bits(bits):
-    """What would be infinity stands for the number that would come next."""
+    """The value of the bits; infinity is replaced by the next number of the same spacing."""
     return 2.0**128 if bits == 0x7F800000 else struct.unpack("<f", struct.pack("<I", bits))[0]
 
 
@@ -79,5 +79,5 @@ def number_words(values):
 
 
 def nine_digits(values):
-    """One text of numbers that read back as the same, most of them longer than need be."""
+    """One text of numbers that read back as the same. Most are longer than necessary."""
     return ("%.9g " * len(values) % tuple(values))[:-1] if values.typecode == "f" else " ".join(map(str, values))

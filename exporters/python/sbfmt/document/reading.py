@@ -1,4 +1,4 @@
-"""Canonical XML, as the library writes it, to records. Foreign files go through the library first, which refuses what is wrong."""
+"""Reads canonical XML into records. Other files must go through the library first, which rejects invalid ones."""
 
 import base64
 import xml.etree.ElementTree as ElementTree
@@ -23,7 +23,7 @@ def items_of(text, field):
 
 
 def child_names(element):
-    """Where each child element's name leads: to a field, and to the value of the field that names it."""
+    """A dict from names of child elements to their field, and to the value of the field that names them."""
     names = {}
     for field in element.fields:
         if field.wrapper:

@@ -7,10 +7,10 @@ from .fields import binary32
 
 
 class Record:
-    """One object. Its fields are attributes; what was never set has the schema's default, lists and children are empty.
+    """One object. Its fields are attributes. A field that was never set has the schema's default; lists and children start empty.
 
-    A reference is the id of what it names. A list is one flat `array` of numbers, whatever its items' width; it may be set from
-    any sequence, nested ones and numpy's arrays included. A `many` is a Python list of records; a `one` is always there."""
+    A reference is the id of its target. A list is one flat `array` of numbers for any width of its items. It may be set from any
+    sequence, including nested ones and numpy arrays. A `many` is a Python list of records; a `one` always exists."""
 
     __slots__ = ("_element", "_values")
 
@@ -62,7 +62,7 @@ class Record:
         return f"<{self._element.name} {named}>"
 
     def __eq__(self, other):
-        """Both say the same, whatever of it was said by leaving it out."""
+        """Whether both are equal; a field that is left out equals its default."""
         if not isinstance(other, Record) or other._element is not self._element:
             return NotImplemented
         return all(getattr(self, field.name) == getattr(other, field.name) for field in self._element.fields)
@@ -78,7 +78,7 @@ class Record:
         return b"" if field.type == "bytes" else array(field.typecode)
 
     def add(self, name, /, **values):
-        """A new record at the end of a `many`, or in the place of an `optional`."""
+        """Adds a new record at the end of a `many`, or sets an `optional`."""
         field = self.field(name)
         child = Record(field.argument, **values)
         if field.type == "many":
@@ -88,7 +88,7 @@ class Record:
         return child
 
     def put(self, name, value):
-        """Sets a field of any kind to what another record of the same element has there."""
+        """Copies a field of any kind from another record of the same element."""
         self._values[self.field(name).name] = value
 
     def find(self, name, identity):
@@ -102,7 +102,7 @@ def flat(value, field):
         return bytes(value)
     if isinstance(value, array) and value.typecode == field.typecode:
         return value
-    if hasattr(value, "astype"):  # numpy's, without asking for numpy
+    if hasattr(value, "astype"):  # numpy arrays, without importing numpy
         numbers = array(field.typecode)
         numbers.frombytes(value.astype({"f": "f4", "i": "i4", "I": "u4"}[field.typecode]).tobytes())
     else:
@@ -111,5 +111,5 @@ def flat(value, field):
             value = [number for item in value for number in item]
         numbers = array(field.typecode, value)
     if len(numbers) % field.width:
-        raise ValueError(f"{field.name}: {len(numbers)} numbers are no multiple of {field.width}")
+        raise ValueError(f"{field.name}: {len(numbers)} numbers are not a multiple of {field.width}")
     return numbers

@@ -1,4 +1,4 @@
-"""Records to canonical XML: section 4.2 of spec/sbf.md."""
+"""Writes records as canonical XML: section 4.2 of spec/sbf.md."""
 
 import base64
 import os
@@ -29,7 +29,7 @@ def value_text(value, field):
 
 
 def is_default(value, field):
-    """Bit by bit, as binary32 where it is one."""
+    """Compares bit by bit, as binary32 if the field is one."""
     if field.default is None or value is None:
         return not value
     if field.typecode == "f":
@@ -39,8 +39,8 @@ def is_default(value, field):
 
 
 class Writing:
-    """The lines so far. `object` says whether it wrote more than defaults; what did not is taken back by whoever asked.
-    `given`: takes the lists instead of the lines, which name them."""
+    """The lines so far. `object` returns whether it wrote more than defaults; if not, the caller removes its lines.
+    `given` collects the lists; the lines then only refer to them."""
 
     def __init__(self, rows, given=None):
         self.lines, self.rows, self.given = [], rows, given
@@ -124,16 +124,15 @@ def canonical_rows(items):
 
 
 def to_xml(record, canonical=True):
-    """The XML of an asset's record, as bytes. Where the library reads it at once, it need not be canonical: nine digits of every
-    number say the same and take a fifth of the time."""
+    """The XML of an asset's record, as bytes. XML that only the library reads need not be canonical: nine digits of every number give
+    the same values in a fifth of the time."""
     writing = Writing(canonical_rows if canonical else lambda items: [nine_digits(items)])
     writing.object(record, record.element.xml, 0)
     return ("\n".join(['<?xml version="1.0" encoding="UTF-8"?>'] + writing.lines) + "\n").encode()
 
 
 def to_parts(record):
-    """(XML, lists) of an asset's record, for the library to read at once: the lists stand by themselves, and the XML names them by
-    their number."""
+    """(XML, lists) of an asset's record for the library. The XML refers to the lists by index."""
     given = []
     writing = Writing(None, given)
     writing.object(record, record.element.xml, 0)
@@ -141,7 +140,7 @@ def to_parts(record):
 
 
 def save_whole(path, data):
-    """Writes beside the file, then takes its place: a failure leaves what was there."""
+    """Writes a temporary file and renames it. A failure leaves the old file unchanged."""
     folder, name = os.path.split(os.path.abspath(path))
     handle, temporary = tempfile.mkstemp(prefix=f".{name}.", dir=folder)
     try:

@@ -1,8 +1,8 @@
-"""Mend buttons: what has one right answer is mended in the scene, or in the file that is written."""
+"""Tests repair buttons: they repair faults in the scene or in files as they are written."""
 
 import bpy
 import fixtures
-from soft_body_format.mending import mend_of
+from soft_body_format.repairs import repair_of
 
 
 class Mends(fixtures.SceneTest):
@@ -15,8 +15,8 @@ class Mends(fixtures.SceneTest):
         settings = self.scene.soft_body_format
         self.assertIn(code, self.check())
         index = next(i for i, one in enumerate(settings.findings) if one.code == code)
-        self.assertIsNotNone(mend_of(settings.findings[index], settings.mends_files))
-        self.assertEqual(bpy.ops.sbfmt.mend(index=index), {"FINISHED"})
+        self.assertIsNotNone(repair_of(settings.findings[index], settings.mends_files))
+        self.assertEqual(bpy.ops.sbfmt.repair(index=index), {"FINISHED"})
         return {one.code for one in settings.findings}
 
     def test_faces_are_turned_outwards(self):
@@ -51,7 +51,7 @@ class Mends(fixtures.SceneTest):
         bpy.context.view_layer.update()
         before, wanted, place = self.export("a.sbf", build=False), [tuple(v.co) for v in other.data.vertices], below.matrix_world.copy()
         self.assertIn("MESH_MIRRORED", self.check())
-        self.assertEqual(bpy.ops.sbfmt.mend(index=-1), {"FINISHED"})
+        self.assertEqual(bpy.ops.sbfmt.repair(index=-1), {"FINISHED"})
         self.assertNotIn("MESH_MIRRORED", {one.code for one in self.scene.soft_body_format.findings})
         self.assertEqual(tuple(made.scale), (1, 1, 1))
         self.assertEqual([tuple(v.co) for v in other.data.vertices], wanted)
@@ -80,7 +80,7 @@ class Mends(fixtures.SceneTest):
         self.mend("PIN_REPEATED")
         self.assertTrue(self.scene.soft_body_format.mends_files)
         told = [one.message for one in self.scene.soft_body_format.findings if one.code == "PIN_REPEATED"]
-        self.assertTrue(told and all(one.startswith("mended in the file") for one in told), told)
+        self.assertTrue(told and all(one.startswith("repaired in the file") for one in told), told)
         self.assertEqual(sum(len(pins.points) for pins in self.export(build=False).soft_bodies[0].pins), 3)
         self.assertEqual(bpy.ops.sbfmt.build(), {"FINISHED"})
 
@@ -88,7 +88,7 @@ class Mends(fixtures.SceneTest):
         for name in ("one", "two"):
             fixtures.ball(name, center=(0, 0, 0) if name == "one" else (3, 0, 0)).data.flip_normals()
         self.assertIn("SURFACE_INSIDE_OUT", self.check())
-        self.assertEqual(bpy.ops.sbfmt.mend(index=-1), {"FINISHED"})
+        self.assertEqual(bpy.ops.sbfmt.repair(index=-1), {"FINISHED"})
         self.assertNotIn("SURFACE_INSIDE_OUT", {one.code for one in self.scene.soft_body_format.findings})
 
     def test_what_has_no_one_answer_stays(self):
@@ -96,8 +96,8 @@ class Mends(fixtures.SceneTest):
         settings = self.scene.soft_body_format
         bpy.ops.sbfmt.check()
         for finding in settings.findings:
-            self.assertIsNone(mend_of(finding, False), finding.code)
-        self.assertEqual(bpy.ops.sbfmt.mend(index=-1), {"CANCELLED"})
+            self.assertIsNone(repair_of(finding, False), finding.code)
+        self.assertEqual(bpy.ops.sbfmt.repair(index=-1), {"CANCELLED"})
 
 
 class Copies(fixtures.SceneTest):

@@ -1,4 +1,4 @@
-"""What has one right answer is mended at a click: in the scene where the fault lies there, else in every file that is written."""
+"""Repairs faults that have one right answer: in the scene if the fault is there, else in every file that is written."""
 
 from dataclasses import dataclass
 
@@ -8,15 +8,15 @@ from mathutils import Matrix
 
 
 @dataclass
-class Mend:
-    """What the button says, and what it does to the object and bone that a finding names; None: the files are mended."""
+class Repair:
+    """A button's label, and its function of the object and bone that a finding names. None: the fault is repaired in files."""
 
     label: str
     act: object = None
 
 
 def edit(source, change):
-    """Changes a mesh, whatever mode it is in; one that several objects share is changed for all of them."""
+    """Changes a mesh in any mode. A mesh that several objects share changes for all of them."""
     if source.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     made = bmesh.new()
@@ -36,15 +36,15 @@ def remove_loose(source, _bone_name):
 
 
 def apply_scale(source, _bone_name):
-    """In the world, so that of a mirrored parent too, into the mesh, which becomes its own where others share it. What hangs on it
-    keeps its place."""
+    """Applies the object's world scale, including its parents' mirroring, to the mesh. A shared mesh is copied first. Children keep
+    their world position."""
     if source.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     below = [(one, one.matrix_world.copy()) for one in source.children]
     if source.data.users > 1:
         source.data = source.data.copy()
-    place, turn, _ = source.matrix_world.decompose()
-    unscaled = Matrix.Translation(place) @ turn.to_matrix().to_4x4()
+    position, rotation, _ = source.matrix_world.decompose()
+    unscaled = Matrix.Translation(position) @ rotation.to_matrix().to_4x4()
     scale = unscaled.inverted() @ source.matrix_world
     source.data.transform(scale, shape_keys=True)
     if scale.determinant() < 0:
@@ -56,7 +56,7 @@ def apply_scale(source, _bone_name):
 
 
 def exchange_limits(source, bone_name):
-    """Of the bone's panel, and of its constraints."""
+    """Exchanges reversed limits of the bone's panel and of its constraints."""
     joint = source.data.bones[bone_name].soft_body_format.joint
     owners = [(joint, f"{name}_min", f"{name}_max") for name in ("twist", "swing_y", "swing_z", "slide")]
     for one in source.pose.bones[bone_name].constraints:
@@ -64,13 +64,13 @@ def exchange_limits(source, bone_name):
             owners += [(one, f"min_{axis}", f"max_{axis}") for axis in "xyz"]
     for owner, low, high in owners:
         if getattr(owner, low) > getattr(owner, high):
-            least, most = getattr(owner, high), getattr(owner, low)
-            setattr(owner, low, least)
-            setattr(owner, high, most)
+            minimum, maximum = getattr(owner, high), getattr(owner, low)
+            setattr(owner, low, minimum)
+            setattr(owner, high, maximum)
 
 
 def stand_on_ground(source, _bone_name):
-    """The feet of its gait, as an export finds them."""
+    """Sets the ground height to the lowest foot of the gait."""
     from .findings import Findings
     from .to_document import Options
     from .whole import write_whole
@@ -81,23 +81,23 @@ def stand_on_ground(source, _bone_name):
 
 
 IN_SCENE = {
-    "SURFACE_WINDING": Mend("Turn faces outwards", face_outwards),
-    "SURFACE_INSIDE_OUT": Mend("Turn faces outwards", face_outwards),
-    "POINT_UNUSED": Mend("Delete loose vertices", remove_loose),
-    "MESH_POINT_UNUSED": Mend("Delete loose vertices", remove_loose),
-    "LIMIT_ORDER": Mend("Exchange the limits", exchange_limits),
-    "GAIT_GROUND": Mend("Stand on the ground", stand_on_ground),
-    "MESH_MIRRORED": Mend("Apply the scale", apply_scale),
+    "SURFACE_WINDING": Repair("Turn faces outwards", face_outwards),
+    "SURFACE_INSIDE_OUT": Repair("Turn faces outwards", face_outwards),
+    "POINT_UNUSED": Repair("Delete loose vertices", remove_loose),
+    "MESH_POINT_UNUSED": Repair("Delete loose vertices", remove_loose),
+    "LIMIT_ORDER": Repair("Exchange the limits", exchange_limits),
+    "GAIT_GROUND": Repair("Stand on the ground", stand_on_ground),
+    "MESH_MIRRORED": Repair("Apply the scale", apply_scale),
 }
-# What `sbfmt validate --fix` mends and no click in the scene does: it came with an imported file, or lies in how panels are combined.
+# Codes that only `sbfmt validate --fix` repairs. Their faults come from an imported file or from a combination of panel settings.
 IN_FILES = ("TETRAHEDRON_INVERTED", "TETRAHEDRON_DUPLICATE", "SPRING_DUPLICATE", "SPRING_SAME_POINT", "SPRING_INERT", "PIN_REPEATED",
             "SKIN_SUM", "EMBEDDING_SUM", "EMBEDDING_BLEND", "VALUE_OUT_OF_RANGE", "ROTATION_NOT_UNIT", "JOINT_FRAME", "NORMAL_NOT_UNIT")
 
 
-def mend_of(finding, mends_files):
-    """The Mend of a finding, or None. `mends_files`: files are mended already."""
+def repair_of(finding, mends_files):
+    """The Repair of a finding, or None. `mends_files`: files are repaired already."""
     if finding.code in IN_SCENE and finding.object_name:
         return IN_SCENE[finding.code]
     if finding.code in IN_FILES and not mends_files:
-        return Mend("Mend it in the file")
+        return Repair("Repair it in the file")
     return None
