@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The add-on's export of a mesh of about 100,000 vertices beside Blender's own of the same as glTF: time and memory, as CSV.
+"""Compares time and memory of the add-on's export of a mesh of about 100,000 vertices with Blender's glTF export. Prints CSV.
 
     bench_blender.py --library FILE [--root FOLDER] [--rounds 5] [--quick]
 
-Each export runs in a Blender of its own; the median of the rounds counts, memory is the peak above what Blender held before.
---quick measures once and fails where an export fails. --root names a folder that holds another system with its Blender (root only);
-memory is not measured there. Exits 77 where there is no Blender."""
+Each export runs in its own Blender process. The result is the median of the rounds; memory is the peak above Blender's memory before.
+--quick measures once and fails if an export fails. --root names a folder with another system and its Blender (needs root); memory is
+not measured there. Exits 77 if there is no Blender."""
 
 import argparse
 import csv
@@ -15,12 +15,12 @@ import statistics
 import subprocess
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "tests", "blender"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "tests", "blender"))
 from blender_process import Blender  # noqa: E402
 
 WRITERS = (("glTF", "out.glb"), ("sbfmt", "out.sbf"), ("sbfmt", "out.sbfz"))
-MOST_S = 300  # of one export
+MAX_S = 300  # limit of one export
 COLUMNS = ("blender", "mesh", "writer", "file", "vertices", "wall_s", "processor_s", "peak_MiB", "bytes", "times_glTF")
 
 
@@ -28,7 +28,7 @@ def measure(blender, writer, mesh, name):
     out = os.path.join(blender.kept, name)
     command = [*blender.command, "--background", "--factory-startup", "--python-exit-code", "3", "--python",
                f"{blender.inside}/tests/measure_export.py", "--", writer, mesh, f"{blender.inside}/kept/{name}"]
-    run = subprocess.run(command, env=blender.environment(), capture_output=True, text=True, check=False, timeout=MOST_S)
+    run = subprocess.run(command, env=blender.environment(), capture_output=True, text=True, check=False, timeout=MAX_S)
     found = next((line[9:] for line in run.stdout.splitlines() if line.startswith("measured ")), None)
     if run.returncode or found is None or not os.path.exists(out):
         sys.exit(f"{writer}, {mesh}: {run.stdout[-2000:]}{run.stderr[-2000:]}")
@@ -41,14 +41,14 @@ def main():
     parser.add_argument("--root", default="")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--quick", action="store_true")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     rows = csv.DictWriter(sys.stdout, COLUMNS, lineterminator="\n")
     rows.writeheader()
-    with Blender(asked.root, [asked.library]) as blender:
-        for mesh in ("plain", ) if asked.quick else ("plain", "skinned"):
+    with Blender(arguments.root, [arguments.library]) as blender:
+        for mesh in ("plain", ) if arguments.quick else ("plain", "skinned"):
             reference = None
             for writer, name in WRITERS:
-                rounds = [measure(blender, writer, mesh, name) for _ in range(1 if asked.quick else asked.rounds)]
+                rounds = [measure(blender, writer, mesh, name) for _ in range(1 if arguments.quick else arguments.rounds)]
                 middle = {key: round(statistics.median(one[key] for one in rounds), 3) for key in ("wall_s", "processor_s", "peak_MiB")
                           if rounds[0][key] is not None}
                 reference = reference or middle["processor_s"]

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The physics of the page that `sbfmt export -o lizard.html` writes, in Chromium: walking, knocked over, hit by a ball, dragged. As CSV:
-milliseconds of processor time a tick of 1/60 s, over all and in the dearest half second, and how many ticks a second that leaves room for.
+"""Measures the physics of the page that `sbfmt export -o lizard.html` writes, in Chromium: walking, knocked over, hit by a ball, dragged.
+Prints CSV: milliseconds of processor time per tick of 1/60 s, on average and in the slowest half second, and possible ticks per second.
 
     bench_page.py [--quick]
 
-Beside it the program's own loops of the same width and of the widest, on the same walk. --quick measures less: a test that every scene runs.
-Exits 1 where a scene goes wrong, 77 where there is no Chromium."""
+Also measures the program's own loops on the same walk, with the same and with the largest vector width. --quick measures less: it tests
+that every scene runs. Exits 1 if a scene fails, 77 if there is no Chromium."""
 import csv
 import datetime
 import json
@@ -16,8 +16,8 @@ import subprocess
 import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-TESTS = os.path.join(HERE, os.pardir, "tests", "web")
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+TESTS = os.path.join(FOLDER, os.pardir, "tests", "web")
 sys.path.insert(0, TESTS)
 import web_files  # noqa: E402
 
@@ -31,17 +31,17 @@ def processor_s(*command):
 
 
 def native_ms(path, instructions, seconds, rounds):
-    """Of a tick on a walk: what so many seconds take beyond half of one."""
+    """Time of a tick on a walk: the time of a run minus the time of a run of half a second."""
     command = (web_files.SBFMT, "run", path, *WALK, "--instructions", instructions, "--seconds")
     return min((processor_s(*command, str(seconds + 0.5)) - processor_s(*command, "0.5")) / seconds / 60 * 1e3 for _ in range(rounds))
 
 
 def first_line(*command):
-    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=HERE).stdout.splitlines()[0]
+    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=FOLDER).stdout.splitlines()[0]
 
 
 def circumstances():
-    """What table() of write_tables.py puts above a table: of this source, machine and day."""
+    """The columns that table() of write_tables.py prints above a table: source, machine and date."""
     clang = next(name for name in ("clang", "clang-19", "clang-16", "clang-14") if shutil.which(name))
     with open("/proc/cpuinfo", encoding="ascii") as file:
         processor = re.search(r"^model name\s*: (.*)$", file.read(), re.MULTILINE).group(1)
@@ -59,7 +59,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         lizard, page = web_files.bundles(folder)["lizard"], os.path.join(folder, "lizard.html")
         web_files.run(web_files.SBFMT, "export", lizard, "-o", page)
-        found = json.loads(web_files.run("node", os.path.join(HERE, "page_scenes.mjs"), os.path.join(TESTS, "chromium.mjs"), modules, page,
+        found = json.loads(web_files.run("node", os.path.join(FOLDER, "page_scenes.mjs"), os.path.join(TESTS, "chromium.mjs"), modules, page,
                                          "4" if quick else "12").splitlines()[-1])
         for scene, cost in found["scenes"].items():
             rows.writerow((scene, f"Chromium {found['browser']}", f"{cost['mean']:.2f}", f"{cost['most']:.2f}", round(1000 / cost["mean"]),

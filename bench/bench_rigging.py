@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""How well an OBJ gets the weights of a rig that has a mesh: cases b (its own mesh, by place), c (a mesh like it) and p
-(its limbs in another pose); and of the bones of such a rig alone, its limbs in another pose (bones).
+"""Measures how well an OBJ gets the weights of a rig with a mesh. Case b: the same mesh, matched by position. Case c: a similar mesh.
+Case p: limbs in another pose. Case bones: a rig without a mesh, limbs in another pose.
 
-Every rigged file is exported as OBJ, changed as other programs would have written it (tests/e2e/obj_variants.py), and
-converted with the file as its rig; the file's own conversion is the truth. Prints CSV, and what is wanted of it:
+Every rigged file is exported as OBJ, changed as other programs would write it (tests/e2e/obj_variants.py), and converted with the file
+as its rig. The file's own conversion is the reference. Prints CSV. The targets:
 
     case b   weights equal within 1e-3 at >= 99.9 % of points; the same gait and legs; the distance walked in 4 s
              within 2 %; conversion in at most 1.3 times the time of the original. same_bundle: as many sections,
              and springs and tetrahedra within 5 %
     case c   the skin, posed by the original's own walk, within 1 % of the longest side of the original's at 99 % of
-             points; one line with the same in its clips, for what they bend farther
+             points; another line for the poses of its clips, which bend farther
 
     ./run bench rigging
     SBFMT_BUILD_DIR=build/release python3 -B bench/bench_rigging.py [b] [c] [p] [bones] [FILE.glb ...]
@@ -33,7 +33,7 @@ from rigged_weights import Original, clip_motions, posed_errors, share_of_equal,
 from sbfmt_program import call  # noqa: E402
 
 Z_UP = ("x", "-z", "y")
-MOST_RUNS, ENOUGH_S = 7, 3
+MAX_RUNS, ENOUGH_S = 7, 3
 
 
 def same_meshes(obj):
@@ -59,7 +59,7 @@ def processor_seconds():
 
 
 def convert(path, rig, out, *options):
-    """Converts and returns processor seconds, which other work on the machine changes less than elapsed ones."""
+    """Converts and returns processor seconds. Other work on the machine affects them less than elapsed seconds."""
     start = processor_seconds()
     made = call("convert", path, *(["--rig", rig] if rig else []), *options, "-o", out)
     if made.status:
@@ -68,10 +68,10 @@ def convert(path, rig, out, *options):
 
 
 def time_against(original, source, out):
-    """Time of an OBJ with the original as its rig by that of the original, each the quickest of several runs in turn:
-    of a tenth of a second each, one run alone tells little."""
+    """Conversion time of an OBJ with the original as its rig, divided by that of the original. Each is the minimum of several
+    alternating runs, because single runs of a tenth of a second vary."""
     seconds = ([], [])
-    while len(seconds[0]) < 2 or (len(seconds[0]) < MOST_RUNS and sum(map(sum, seconds)) < ENOUGH_S):
+    while len(seconds[0]) < 2 or (len(seconds[0]) < MAX_RUNS and sum(map(sum, seconds)) < ENOUGH_S):
         seconds[0].append(convert(original.path, None, out))
         seconds[1].append(convert(source, original.path, out))
     return min(seconds[1]) / min(seconds[0])
@@ -84,7 +84,7 @@ def described(path):
     return info["gait"], distance, len(info["sections"]), sum(info["springs"].values()) + info["tetrahedra"]
 
 
-def are_alike(found, wanted):
+def are_similar(found, wanted):
     """Whether two bundles have as many sections and about as many elements."""
     return found[2] == wanted[2] and abs(found[3] - wanted[3]) <= 0.05 * wanted[3]
 
@@ -100,7 +100,7 @@ def measure_same(original, folder, rows):
         try:
             time = time_against(original, source, out)
             found = described(out)
-            share = share_of_equal(original, obj, out)
+            fraction = share_of_equal(original, obj, out)
         except RuntimeError as error:
             print(f"b,{original.name},{name},{len(obj.points)},0,,,,,,,{error}".replace("\n", " "), flush=True)
             rows.append((0, False, 0, 0, False))
@@ -108,10 +108,10 @@ def measure_same(original, folder, rows):
         walked = found[1] / distance if distance else 1.0
         part = name.startswith("one object of")
         same = part or found[0] == gait
-        alike = are_alike(found, wanted)
-        rows.append((share, same, walked if not part else 1.0, time, alike))
-        print(f"b,{original.name},{name},{len(obj.points)},{100 * share:.2f},{'yes' if same else 'no'},"
-              f"{walked:.3f},{time:.2f},{'yes' if alike else 'no'},,,", flush=True)
+        similar = are_similar(found, wanted)
+        rows.append((fraction, same, walked if not part else 1.0, time, similar))
+        print(f"b,{original.name},{name},{len(obj.points)},{100 * fraction:.2f},{'yes' if same else 'no'},"
+              f"{walked:.3f},{time:.2f},{'yes' if similar else 'no'},,,", flush=True)
 
 
 def measure_like(original, folder, rows):

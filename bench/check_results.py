@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs benchmarks again and compares what no machine changes: errors, counts and bytes. Times are not looked at.
+"""Runs benchmarks again and compares results that do not depend on the machine: errors, counts and bytes. Ignores times.
 
-    bench/check_results.py --build build/release [--update] [NAME...]     (all tables below where none is named)
+    bench/check_results.py --build build/release [--update] [NAME...]     (all tables below if none is named)
 
-A table of bench/results is compared row by row with what its program prints now, in the columns of TABLES; `drawings` compares
-the charts of docs/media with their tables, `maps` the maps there with those drawn anew. --update writes those columns and
-drawings anew and leaves the times, with the commit that they were measured at, as they are. Exit status: 0 fresh, 1 stale, 77 a program or gnuplot is missing."""
+Compares each row of a table of bench/results with the program's output, in the columns of TABLES. `drawings` compares the charts of
+docs/media with their tables; `maps` compares the maps there with new ones. --update writes these columns and drawings, and keeps the
+times and the commit at which they were measured. Exit status: 0 fresh, 1 stale, 77 a program or gnuplot is missing."""
 import argparse
 import csv
 import glob
@@ -22,12 +22,12 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 RESULTS = os.path.join(ROOT, "bench", "results")
 MEDIA = os.path.join(ROOT, "docs", "media")
 SKIPPED = 77
-NEAR = 2e-3  # compilers round differently in the last digits of what is summed in double precision
+NEAR = 2e-3  # compilers differ in the last digits of sums in double precision
 
 
 @dataclass
 class Table:
-    keys: str  # columns that say which row it is
+    keys: str  # columns that identify a row
     same: str  # columns that are compared
     cases: tuple = ()  # of `sbfmt chart`; none: bench_NAME
     only: tuple = ()  # (column, value) of the rows that are compared
@@ -62,7 +62,7 @@ TABLES = {
 }
 DRAWINGS = (("chart-meshes", "cantilever-meshes-shape"), ("chart-beam", "beam-amplitude"), ("chart-drop", "drop-volume"),
             ("chart-pendulum", "pendulum-period"), ("chart-character", "walk-path_px"))
-MAPS = ("damping", "mass-springs", "poisson")  # drawn anew: they have no times, and no table is kept of them
+MAPS = ("damping", "mass-springs", "poisson")  # always drawn: they have no times and no stored table
 
 
 def skip(message):
@@ -71,7 +71,7 @@ def skip(message):
 
 
 def path_of(name):
-    """The table, of whatever machine it is."""
+    """The table, from any machine."""
     found = glob.glob(os.path.join(RESULTS, "*", name + ".csv"))
     if len(found) != 1:
         sys.exit(f"bench/results has {len(found)} tables {name}.csv, not one: keep the newest")
@@ -130,7 +130,7 @@ def is_same(one, other):
 
 
 def compare(name, kept, fresh):
-    """Lines that say what is stale; [(row, column, value)] of what would make it fresh."""
+    """(messages about stale values, [(row, column, new value)])."""
     table = TABLES[name]
     key = lambda row: tuple(row[column] for column in table.keys.split())  # noqa: E731
     now = {key(row): row for row in fresh}
@@ -144,7 +144,7 @@ def compare(name, kept, fresh):
                 stale.append(f"{name}: {' '.join(key(row))} is no longer measured")
             continue
         broken = row.get("outcome", "sound") != "sound" and row["outcome"] == found["outcome"]
-        for column in ("elements",) if broken else table.same.split():  # how far off what breaks is says nothing
+        for column in ("elements",) if broken else table.same.split():  # the error of a run that exploded means nothing
             if not is_same(row[column], found[column]):
                 stale.append(f"{name}: {' '.join(key(row))}: {column} is {found[column]}, not {row[column]}")
                 changes.append((row, column, found[column]))
@@ -155,7 +155,7 @@ def compare(name, kept, fresh):
 
 
 def write_rows(path, columns, rows, changed):
-    """Lines of rows that did not change stay as they were."""
+    """Writes the changed rows and keeps the lines of all others."""
     with open(path, encoding="utf-8") as stream:
         head, *lines = stream.read().splitlines()
     with open(path, "w", encoding="utf-8", newline="") as stream:
@@ -190,11 +190,11 @@ def check_drawing(fresh, kept, update):
             return []
     if update:
         shutil.copy(fresh, os.path.join(MEDIA, kept))
-    return [f"docs/media/{kept} is not what would be drawn now"]
+    return [f"docs/media/{kept} differs from a new drawing"]
 
 
 def draws(build):
-    """The program that draws, where it can."""
+    """The program that draws, or None."""
     program = os.path.join(build, "tools", "sbfmt")
     if not (shutil.which("gnuplot") and os.access(program, os.X_OK)):
         skip("gnuplot is not installed, or sbfmt is not built")
@@ -229,17 +229,17 @@ def main():
     parser.add_argument("--build", required=True)
     parser.add_argument("--update", action="store_true")
     parser.add_argument("names", nargs="*")
-    asked = parser.parse_args()
-    names = asked.names or [*TABLES, *OTHERS]
+    arguments = parser.parse_args()
+    names = arguments.names or [*TABLES, *OTHERS]
     unknown = [name for name in names if name not in TABLES and name not in OTHERS]
     if unknown:
         parser.error(f"no table {unknown[0]}; there are: {', '.join([*TABLES, *OTHERS])}")
     stale = []
     for name in names:
-        found = OTHERS[name](asked.build, asked.update) if name in OTHERS else check_table(asked.build, name, asked.update)
+        found = OTHERS[name](arguments.build, arguments.update) if name in OTHERS else check_table(arguments.build, name, arguments.update)
         print(f"{name}: {len(found)} stale" if found else f"{name}: fresh", flush=True)
         stale += found
-    if stale and not asked.update:
+    if stale and not arguments.update:
         print(*stale[:40], sep="\n")
         print("bench/check_results.py --build BUILD --update, then bench/write_tables.py, write them anew; ./run bench measures the times")
         sys.exit(1)

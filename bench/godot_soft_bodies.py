@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The lizard's loose sections dropped on a plane in Godot: this runtime's beside SoftBody3D's, of both physics engines, as a CSV.
+"""Drops the lizard's sections on a plane in Godot. Compares this runtime with SoftBody3D in both physics engines. Prints CSV.
 
     godot_soft_bodies.py [--root FOLDER] [--godot PROGRAM] --build FOLDER --program SBFMT [--pictures FOLDER] >godot.csv
 
-Processor time of the whole process, so that a busy machine matters less: of FRAMES frames less that of one, the least of several runs,
-less the same of a scene without bodies."""
+Measures processor time of the whole process, which a busy machine affects less: the time of FRAMES frames minus that of one, the
+minimum of several runs, minus the same for a scene without bodies."""
 
 import argparse
 import datetime
@@ -22,19 +22,19 @@ from run_in_godot import packed, Screen  # noqa: E402
 
 FRAMES = 240
 RUNS = 3
-# Who, engine, simulation_precision, linear_stiffness, pressure_coefficient; the first of SoftBody3D's is the default.
+# Method, engine, simulation_precision, linear_stiffness, pressure_coefficient; the first SoftBody3D row has the defaults.
 CASES = [("ours", "Jolt Physics", 0, 0, 0)] + [("godot", engine, *settings) for engine in ("Jolt Physics", "GodotPhysics3D")
                                               for settings in ((5, 0.5, 0), (5, 0.5, 1), (20, 1.0, 1))]
 
 
 def run(godot, case, frames, what, display=""):
-    """One run: processor seconds, and what it said."""
-    who, engine, *settings = case
+    """One run: processor seconds and output."""
+    method, engine, *settings = case
     godot.set_engine(engine)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seen = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if display else ["--headless"]
+    display_options = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if display else ["--headless"]
     more = {"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"} if display else {}
-    done = godot.run(*seen, "--fixed-fps", "60", "--resolution", "640x400", "--script", "soft_bodies.gd", "--", who, str(frames),
+    done = godot.run(*display_options, "--fixed-fps", "60", "--resolution", "640x400", "--script", "soft_bodies.gd", "--", method, str(frames),
                      *map(str, settings), what, **more)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode or "SCRIPT ERROR" in done.stdout:
@@ -43,13 +43,13 @@ def run(godot, case, frames, what, display=""):
 
 
 def cost(godot, case):
-    """Milliseconds a frame, by the processor's clock."""
+    """Processor time in milliseconds per frame."""
     long, short = (min(run(godot, case, frames, "time")[0] for _ in range(RUNS)) for frames in (FRAMES, 1))
     return 1000 * (long - short) / (FRAMES - 1)
 
 
 def stamp():
-    """Where and when this was measured, as other results say it."""
+    """Machine and date of the measurement, in the columns of other results."""
     def first(*command):
         return subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.splitlines()[0]
     with open("/proc/cpuinfo", encoding="utf-8") as file:
@@ -64,22 +64,22 @@ def main():
     parser.add_argument("--build", required=True)
     parser.add_argument("--program", required=True)
     parser.add_argument("--pictures", default="")
-    asked = parser.parse_args()
-    with Godot(asked.root, asked.godot, asked.build) as godot:
-        packed(asked.program, godot.folder)
+    arguments = parser.parse_args()
+    with Godot(arguments.root, arguments.godot, arguments.build) as godot:
+        packed(arguments.program, godot.folder)
         godot.copy(os.path.join(ROOT, "bench", "soft_bodies.gd"))
         empty = {engine: cost(godot, ("none", engine, 0, 0, 0)) for engine in ("Jolt Physics", "GodotPhysics3D")}
         print("engine,precision,stiffness,pressure,ms,volume_least,volume_most,volume_last,lowest_mm,commit,compiler,processor,date")
         for number, case in enumerate(CASES):
-            told = re.search(r"^volume (\S+) (\S+) (\S+) lowest (\S+)", run(godot, case, FRAMES, "look")[1], re.MULTILINE).groups()
-            who, engine, *settings = case
-            name = "sbfmt" if who == "ours" else "SoftBody3D of " + {"GodotPhysics3D": "Godot Physics"}.get(engine, engine)
-            print(name, *(settings if who != "ours" else ("", "", "")), f"{max(0, cost(godot, case) - empty[engine]):.3f}", *told[:3],
-                  f"{1000 * float(told[3]):.2f}", *stamp(), sep=",", flush=True)
-            if asked.pictures:
+            volumes = re.search(r"^volume (\S+) (\S+) (\S+) lowest (\S+)", run(godot, case, FRAMES, "look")[1], re.MULTILINE).groups()
+            method, engine, *settings = case
+            name = "sbfmt" if method == "ours" else "SoftBody3D of " + {"GodotPhysics3D": "Godot Physics"}.get(engine, engine)
+            print(name, *(settings if method != "ours" else ("", "", "")), f"{max(0, cost(godot, case) - empty[engine]):.3f}", *volumes[:3],
+                  f"{1000 * float(volumes[3]):.2f}", *stamp(), sep=",", flush=True)
+            if arguments.pictures:
                 with Screen(godot.folder, godot.root) as screen:
                     run(godot, case, FRAMES, "res://picture.png", f":{screen.number}")
-                shutil.copy(os.path.join(godot.folder, "picture.png"), os.path.join(asked.pictures, f"{number}.png"))
+                shutil.copy(os.path.join(godot.folder, "picture.png"), os.path.join(arguments.pictures, f"{number}.png"))
 
 
 if __name__ == "__main__":

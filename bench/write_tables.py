@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Writes the tables and figures of bench/README.md and docs/*.md from the results that are committed.
 
-    bench/write_tables.py [--check]      with --check, says which document is stale and changes nothing
+    bench/write_tables.py [--check]      --check reports stale documents and changes nothing
 
-A table stands between the lines `<!-- table NAME MACHINE -->` and `<!-- end of table -->`; it comes from
-bench/results/MACHINE/NAME.csv. A figure in a sentence stands between `<!-- figure NAME MACHINE COLUMN KEY=VALUE... -->` and
-`<!-- end -->`, and begins no line, since Markdown ends a paragraph there: the column in the row of these keys, or the smallest to the largest value of several rows. `over=COLUMN KEY=VALUE...` names the
-row whose value divides it. New results: ./run bench, then copy out/bench/*.csv there."""
+The lines `<!-- table NAME MACHINE -->` and `<!-- end of table -->` enclose a table from bench/results/MACHINE/NAME.csv. The markers
+`<!-- figure NAME MACHINE COLUMN KEY=VALUE... -->` and `<!-- end -->` enclose a figure: the column in the row of these keys, or the
+smallest to the largest value of several rows. `over=COLUMN KEY=VALUE...` names the row whose value divides it. A figure must not begin
+a line, because Markdown ends a paragraph there. New results: ./run bench, then copy out/bench/*.csv there."""
 import csv
 import math
 import os
@@ -21,7 +21,7 @@ BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)
 
 
 def number(text):
-    """Three digits that count, or all of a whole number, thousands apart."""
+    """Three significant digits, or all digits of a whole number, with separators of thousands."""
     if not text or "." not in text:
         return f"{int(text):,}" if text else ""
     value = float(text)
@@ -155,7 +155,7 @@ def character_row(r):
 
 
 def short(text, digits=2):
-    """So many digits that count, without a power of ten."""
+    """That many significant digits, without an exponent."""
     return f"{float(text):.{digits}g}" if text else ""
 
 
@@ -205,22 +205,22 @@ TABLES = {
 }
 
 
-def share(text):
-    """In per cent, two digits that count."""
+def per_cent(text):
+    """Per cent with two significant digits."""
     return f"{100 * float(text):.2g}" if abs(float(text)) >= 5e-6 else "0"
 
 
 def bias_table(rows):
-    """One row a case and model, one column a scheme and its substeps; the same on every machine."""
+    """One row per case and model, one column per scheme and substeps. It is the same on every machine."""
     schemes = list(dict.fromkeys((r["scheme"], r["substeps"]) for r in rows))
     names = [scheme + (f", {substeps}" if substeps != "0" else "") for scheme, substeps in schemes]
     lines = [["case", "model"] + [f"`{name}`" for name in names], ["---", "---"] + ["---:"] * len(names)]
     for case, model in dict.fromkeys((r["case"], r["model"]) for r in rows):
         cells = {(r["scheme"], r["substeps"]): r for r in rows if (r["case"], r["model"]) == (case, model)}
         at = [cells.get(scheme) for scheme in schemes]
-        lines.append([case, model] + [share(r["bias"]) if r else "" for r in at])
+        lines.append([case, model] + [per_cent(r["bias"]) if r else "" for r in at])
         if case == "swing":
-            lines.append(["damping added", model] + [share(r["damping"]) if r else "" for r in at])
+            lines.append(["damping added", model] + [per_cent(r["damping"]) if r else "" for r in at])
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
@@ -239,13 +239,13 @@ def values(rows, column, keys):
 
 
 def two_digits(value):
-    """Two digits that count: as many as a sentence needs."""
+    """Two significant digits, for sentences."""
     digits = max(0, 1 - math.floor(math.log10(abs(value)))) if value else 0
     return f"{round(value, digits):,.{digits}f}"
 
 
 def figure(words):
-    """What the marker asks for, as text."""
+    """The text of a marker's figure."""
     name, machine, column, *keys = shlex.split(words)
     rows = results(name, machine)
     over = next((i for i, key in enumerate(keys) if key.startswith("over=")), len(keys))

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Converts rigged characters that nobody edits, and drives each: on flat ground, uneven ground, through water or air.
+"""Converts rigged characters without manual edits and drives each: on flat ground, uneven ground, through water or air.
 
     ./run zoo
     SBFMT_BUILD_DIR=build/release python3 -B bench/zoo.py [-o DIR] [--seconds S] [--jobs N] [--convert OPTIONS] [FILE|FOLDER ...]
 
-Without files: examples/ and, where it is there, ../shared/zoo. Writes DIR/zoo.csv (default out/zoo), a row a character,
-DIR/sheet.png, a picture of each in the order of the rows, and the bundles. A table truth.tsv in a folder (columns file, kind
-and legs) states what is right. Ends with the figures that docs/converting.md promises; exit status 1 where a file was not
-converted, a run is not valid or a kind is wrong."""
+Default files: examples/ and, if it exists, ../shared/zoo. Writes the bundles, DIR/zoo.csv (default out/zoo) with a row per character,
+and DIR/sheet.png with a picture of each in the order of the rows. A table truth.tsv in a folder (columns file, kind and legs) has the
+expected results. Prints the figures that docs/converting.md promises. Exit status 1 if a file was not converted, a run is not valid
+or a kind is wrong."""
 import argparse
 import concurrent.futures
 import csv
@@ -24,7 +24,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 SBFMT = os.path.join(os.environ.get("SBFMT_BUILD_DIR", os.path.join(ROOT, "build", "release")), "tools", "sbfmt")
 ZOO = os.path.join(ROOT, os.pardir, "shared", "zoo")
 MEDIA = ("swim", "fly")
-LEGS_A_SECOND, SIZES_A_SECOND = 1.0, 0.5  # wanted speeds: of legs by their length, of others by the largest extent
+LEGS_A_SECOND, SIZES_A_SECOND = 1.0, 0.5  # target speeds: with legs by their length, else by the largest extent
 COLUMNS = ("file", "kind", "true_kind", "legs", "true_legs", "bodies", "elements", "substeps", "visits", "us_per_frame", "convert_s",
            "size_m", "volume_least", "max_strain", "seam_gap_mm_per_m", "slip_mm", "distance_share", "uneven_volume_least",
            "uneven_max_strain", "uneven_distance_share", "valid", "note")
@@ -34,22 +34,22 @@ def program(*arguments):
     return subprocess.run([SBFMT, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
-def inputs_of(places):
-    for place in places:
-        if os.path.isdir(place):
-            yield from sorted(glob.glob(os.path.join(place, "**", "*.glb"), recursive=True))
+def inputs_of(paths):
+    for path in paths:
+        if os.path.isdir(path):
+            yield from sorted(glob.glob(os.path.join(path, "**", "*.glb"), recursive=True))
         else:
-            yield place
+            yield path
 
 
-def truth_of(places):
+def truth_of(paths):
     """File name -> its row in a truth.tsv of one of the folders."""
     truth = {}
-    for place in places:
-        table = os.path.join(place, "truth.tsv")
+    for path in paths:
+        table = os.path.join(path, "truth.tsv")
         if os.path.isfile(table):
             with open(table, encoding="utf-8", newline="") as file:
-                truth.update({os.path.realpath(os.path.join(place, row["file"])): row for row in csv.DictReader(file, delimiter="\t")})
+                truth.update({os.path.realpath(os.path.join(path, row["file"])): row for row in csv.DictReader(file, delimiter="\t")})
     return truth
 
 
@@ -106,7 +106,7 @@ def visit(source, path, picture, truth, seconds):
 
 
 def make_sheet(pictures, path):
-    """One picture of all, eight side by side."""
+    """Makes one picture of all, eight in a row."""
     drawn = [picture for picture in pictures if os.path.exists(picture)]
     if not drawn or not shutil.which("ffmpeg"):
         return False
@@ -129,22 +129,22 @@ def times_of(folder):
         return {row["file"]: row["seconds"] for row in csv.DictReader(file, delimiter="\t")}
 
 
-def share(rows, good):
+def count_of(rows, good):
     return f"{sum(map(good, rows))} of {len(rows)}"
 
 
 def conclude(rows):
-    """Prints the figures; whether nothing failed."""
-    judged = [row for row in rows if row.get("true_kind")]
+    """Prints the figures and returns whether nothing failed."""
+    checked = [row for row in rows if row.get("true_kind")]
     moved = [row for row in rows if row.get("distance_share")]
     measured = [row for row in rows if row.get("volume_least")]
-    wrong = [row["file"] for row in judged if row["kind"] != row["true_kind"]]
-    print(f"valid                        {share(rows, lambda r: r['valid'] == 'yes')}")
-    print(f"kind as stated               {len(judged) - len(wrong)} of {len(judged)}{': not ' + ', '.join(wrong) if wrong else ''}")
-    print(f"volume at least 0.9          {share(measured, lambda r: float(r['volume_least']) >= 0.9)}")
-    print(f"strain at most 0.5           {share(measured, lambda r: float(r['max_strain']) <= 0.5)}")
-    print(f"seam at most 0.1 mm per m    {share(measured, lambda r: float(r['seam_gap_mm_per_m']) <= 0.1)}")
-    print(f"80 % of the wanted distance  {share(moved, lambda r: float(r['distance_share']) >= 0.8)}")
+    wrong = [row["file"] for row in checked if row["kind"] != row["true_kind"]]
+    print(f"valid                        {count_of(rows, lambda r: r['valid'] == 'yes')}")
+    print(f"kind as stated               {len(checked) - len(wrong)} of {len(checked)}{': not ' + ', '.join(wrong) if wrong else ''}")
+    print(f"volume at least 0.9          {count_of(measured, lambda r: float(r['volume_least']) >= 0.9)}")
+    print(f"strain at most 0.5           {count_of(measured, lambda r: float(r['max_strain']) <= 0.5)}")
+    print(f"seam at most 0.1 mm per m    {count_of(measured, lambda r: float(r['seam_gap_mm_per_m']) <= 0.1)}")
+    print(f"80 % of the wanted distance  {count_of(moved, lambda r: float(r['distance_share']) >= 0.8)}")
     if measured:
         times = [float(row["us_per_frame"]) for row in measured]
         print(f"time a frame                 {statistics.median(times):.0f} us (median), {max(times):.0f} us (most)")
@@ -159,41 +159,41 @@ def conclude(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    parser.add_argument("places", nargs="*", metavar="FILE|FOLDER")
+    parser.add_argument("paths", nargs="*", metavar="FILE|FOLDER")
     parser.add_argument("-o", dest="out", default=os.path.join("out", "zoo"), metavar="DIR")
     parser.add_argument("--seconds", type=float, default=6)
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="at once; times a frame are true with one")
     parser.add_argument("--convert", default="", metavar="OPTIONS", help="for every conversion, in one word")
-    given = parser.parse_args()
-    places = given.places or [os.path.join(ROOT, "examples"), *([ZOO] if os.path.isdir(ZOO) else [])]
-    sources, truth = list(inputs_of(places)), truth_of(places)
+    arguments = parser.parse_args()
+    paths = arguments.paths or [os.path.join(ROOT, "examples"), *([ZOO] if os.path.isdir(ZOO) else [])]
+    sources, truth = list(inputs_of(paths)), truth_of(paths)
     if not sources:
         sys.exit("zoo: no .glb file there: name files, or folders that hold some")
-    os.makedirs(given.out, exist_ok=True)
-    # Files of two folders may have one name: each gets a folder as its own.
+    os.makedirs(arguments.out, exist_ok=True)
+    # Files in two folders may have the same name, so each folder gets its own output folder.
     folders = {}
     for source in sources:
         folders.setdefault(os.path.dirname(os.path.realpath(source)), []).append(source)
     jobs, seconds = [], {}
     for folder, files in folders.items():
-        out = os.path.join(given.out, os.path.relpath(folder, os.path.commonpath([*folders, os.path.dirname(folder)])).replace(os.sep, "."))
-        made = program("convert", *files, "--out-dir", out, "--jobs", given.jobs, *shlex.split(given.convert))
+        out = os.path.join(arguments.out, os.path.relpath(folder, os.path.commonpath([*folders, os.path.dirname(folder)])).replace(os.sep, "."))
+        made = program("convert", *files, "--out-dir", out, "--jobs", arguments.jobs, *shlex.split(arguments.convert))
         if made.returncode:
             print(f"{os.path.basename(folder)}: convert ended with {made.returncode}", file=sys.stderr)
         took = times_of(out)
         for source in files:
             seconds[source] = took.get(os.path.basename(source), "")
             path = os.path.join(out, os.path.splitext(os.path.basename(source))[0])
-            jobs.append((source, path + ".sbf", path + ".png", truth.get(os.path.realpath(source)), given.seconds))
-    with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
+            jobs.append((source, path + ".sbf", path + ".png", truth.get(os.path.realpath(source)), arguments.seconds))
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         rows = [{**row, "convert_s": seconds[job[0]]} for job, row in zip(jobs, pool.map(lambda job: visit(*job), jobs))]
-    with open(os.path.join(given.out, "zoo.csv"), "w", encoding="utf-8", newline="") as file:
+    with open(os.path.join(arguments.out, "zoo.csv"), "w", encoding="utf-8", newline="") as file:
         table = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")
         table.writeheader()
         table.writerows(rows)
-    sheet = os.path.join(given.out, "sheet.png")
+    sheet = os.path.join(arguments.out, "sheet.png")
     good = conclude(rows)
-    print(f"{os.path.join(given.out, 'zoo.csv')}{', ' + sheet if make_sheet([job[2] for job in jobs], sheet) else ''}")
+    print(f"{os.path.join(arguments.out, 'zoo.csv')}{', ' + sheet if make_sheet([job[2] for job in jobs], sheet) else ''}")
     sys.exit(0 if good else 1)
 
 

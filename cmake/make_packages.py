@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Everything that others install, made of built trees and listed with its SHA-256 in SHA256SUMS.
+"""Makes all packages for users from built trees, and lists their SHA-256 in SHA256SUMS.
 
 Usage: make_packages.py --static DIR [--shared DIR] [--self-contained DIR] [--node DIR] --out DIR [NAME...]
 
-    debian    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   of the tree of shared libraries (dpkg-shlibdeps and file are needed)
-    tarball   sbfmt-VERSION-SYSTEM.tar.gz         static libraries, headers, CMake package, pkg-config files, the program: to be put anywhere
-    npm       sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (clang, lld, wasi-libc and npm are needed)
-    program   sbfmt-cli-VERSION.tgz               the program as WebAssembly for Node.js, of a tree for it
-    blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library; of the tree of self-contained libraries where
-                                                  there is one: then it needs nothing of the system but its C library
-    godot     sbfmt-godot-VERSION-SYSTEM.zip      addons/sbfmt for a Godot project (a Godot 4.6 is needed)
+    debian    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   from the tree of shared libraries (needs dpkg-shlibdeps and file)
+    tarball   sbfmt-VERSION-SYSTEM.tar.gz         relocatable: static libraries, headers, CMake package, pkg-config files, the program
+    npm       sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (needs clang, lld, wasi-libc and npm)
+    program   sbfmt-cli-VERSION.tgz               the program as WebAssembly for Node.js, from the tree of --node
+    blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library; from the tree of self-contained libraries if
+                                                  there is one: then it needs only the system's C library
+    godot     sbfmt-godot-VERSION-SYSTEM.zip      addons/sbfmt for a Godot project (needs Godot 4.6)
 
-Makes those that are named, all without a name, and prints a table of what was made and, with its reason, what was not. Exit status 1 if
-one was not made. The folder is made anew, beside its place, and holds only what was made."""
+Makes the named packages, or all if none is named. Prints a table of the packages, with the reason if one was not made; then the exit
+status is 1. The output folder is replaced and holds only these packages."""
 import argparse
 import glob
 import gzip
@@ -27,12 +27,12 @@ import tarfile
 import tempfile
 import zipfile
 
-STAMP = (2026, 1, 1, 0, 0, 0)  # the same bytes whenever it is made of the same files
+STAMP = (2026, 1, 1, 0, 0, 0)  # a fixed date: the same files give the same bytes
 STAMP_S = 1767225600
 
 
 class CommandError(Exception):
-    """A command failed; the text has it and the end of what it printed."""
+    """A command failed. The text holds the command and the end of its output."""
 
 
 def run(*command, folder=None):
@@ -45,7 +45,7 @@ def run(*command, folder=None):
 def cache_of(build):
     path = os.path.join(build, "CMakeCache.txt")
     if not os.path.exists(path):
-        sys.exit(f"{build} is no tree that CMake configured: ./run package makes the two that are needed")
+        sys.exit(f"{build} is not a build tree of CMake: ./run package makes both trees that are needed")
     with open(path, encoding="utf-8") as file:
         return dict(re.match(r"([^:]+):\w+=(.*)", line).groups() for line in file if re.match(r"\w[^:]*:\w+=", line))
 
@@ -76,14 +76,14 @@ def write_zip(folder, out):
     with zipfile.ZipFile(out, "w") as archive:
         for path, name in files_below(folder):
             entry = zipfile.ZipInfo(name, STAMP)
-            entry.external_attr = (os.stat(path).st_mode & 0o777) << 16  # programs stay programs
+            entry.external_attr = (os.stat(path).st_mode & 0o777) << 16  # keep the executable bit
             entry.compress_type = zipfile.ZIP_DEFLATED
             with open(path, "rb") as file:
                 archive.writestr(entry, file.read())
 
 
 class Packages:
-    """Each of these leaves files in `out`, or returns why it cannot."""
+    """One method per package. Each writes files to `out`, or returns the reason why it cannot."""
 
     def __init__(self, static, shared, self_contained, node, out):
         self.static, self.shared, self.self_contained, self.node, self.out = static, shared, self_contained, node, out
@@ -101,7 +101,7 @@ class Packages:
 
     def debian(self):
         if not self.shared:
-            return "no tree of shared libraries was named"
+            return "no tree of shared libraries was given"
         for command, package in (("dpkg-shlibdeps", "dpkg-dev"), ("file", "file")):
             if not shutil.which(command):
                 return f"{command} is not installed (package {package})"
@@ -165,16 +165,16 @@ def write_sums(folder):
 
 
 def make_each(packages, names):
-    """Makes these; prints a row of the table for each. How many could not be made."""
+    """Makes the packages and prints a row of the table for each. Returns how many could not be made."""
     missing = 0
     for name in names:
         try:
-            why = getattr(packages, name)()
+            reason = getattr(packages, name)()
         except CommandError as error:
             print(error, file=sys.stderr)
-            why = "a command failed; what it printed stands above"
-        print(f"{name:8}  {'NOT MADE: ' + why if why else 'made'}", flush=True)
-        missing += bool(why)
+            reason = "a command failed; see its output above"
+        print(f"{name:8}  {'NOT MADE: ' + reason if reason else 'made'}", flush=True)
+        missing += bool(reason)
     return missing
 
 
@@ -186,18 +186,18 @@ def main():
     parser.add_argument("--node", default="")
     parser.add_argument("--out", required=True)
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(NAMES))
-    asked = parser.parse_args()
-    unknown = [name for name in asked.names if name not in NAMES]
+    arguments = parser.parse_args()
+    unknown = [name for name in arguments.names if name not in NAMES]
     if unknown:
         parser.error(f"no package {', '.join(unknown)}; there are {', '.join(NAMES)}")
-    out = os.path.abspath(asked.out)
+    out = os.path.abspath(arguments.out)
     os.makedirs(os.path.dirname(out), exist_ok=True)
     beside = tempfile.mkdtemp(prefix=os.path.basename(out) + ".", dir=os.path.dirname(out))
     try:
-        packages = Packages(os.path.abspath(asked.static), asked.shared and os.path.abspath(asked.shared),
-                            asked.self_contained and os.path.abspath(asked.self_contained),
-                            asked.node and os.path.abspath(asked.node), beside)
-        missing = make_each(packages, asked.names or NAMES)
+        packages = Packages(os.path.abspath(arguments.static), arguments.shared and os.path.abspath(arguments.shared),
+                            arguments.self_contained and os.path.abspath(arguments.self_contained),
+                            arguments.node and os.path.abspath(arguments.node), beside)
+        missing = make_each(packages, arguments.names or NAMES)
         write_sums(beside)
         os.chmod(beside, 0o755)
         shutil.rmtree(out, ignore_errors=True)

@@ -1,10 +1,9 @@
 #!/bin/sh
-# Builds the libraries that libsbfmt needs as static ones, for an SDK, an add-on or a program that needs nothing of the system but its C
-# library:
+# Builds static versions of the libraries that libsbfmt uses, for an SDK, an add-on or a program that needs only the system's C library:
 #   static_libraries.sh FOLDER [TOOLCHAIN.cmake [program]]
-# `program`: also those of the program `sbfmt` and its importers.
-# Afterwards: cmake -DSBFMT_STATIC_LIBRARIES=FOLDER. Sources come from Debian's archive, as apt knows it; upstream's archives are those
-# whose SHA-256 stands below, with Debian's patches. Needs apt, dpkg-source and a compiler: else exit status 77 with the reason.
+# `program`: also the libraries of the program `sbfmt` and its importers.
+# Afterwards: cmake -DSBFMT_STATIC_LIBRARIES=FOLDER. Sources come from Debian's archive through apt: upstream archives with the SHA-256
+# below, with Debian's patches. Needs apt, dpkg-source and a compiler; without them exit status 77 with the reason.
 set -eu
 folder=$1
 toolchain=${2:-}
@@ -56,7 +55,7 @@ log=$work/log
 apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 2>/dev/null | sort -u >"$work/all.list"
 grep -v -e '-security ' -e '-updates ' "$work/all.list" >"$work/release.list" || fail "apt knows no archive; try: apt-get update" 77
 
-# apt LIST ARGUMENTS...: with lists and archives of its own, so that the system's stay as they are
+# apt LIST ARGUMENTS...: runs apt with separate lists and archives, and leaves the system's unchanged
 apt() {
   known=$1
   shift
@@ -110,7 +109,7 @@ build() {
     tail -n 15 "$log" >&2
     fail "$package could not be built; all that was printed is in $log"
   }
-  rm -f "$work/made$folder"/lib/*.so* "$work/made$folder"/lib/*.dll.a # some make both kinds, and the linker would prefer these
+  rm -f "$work/made$folder"/lib/*.so* "$work/made$folder"/lib/*.dll.a # some packages build both kinds, and the linker prefers shared ones
   mkdir -p "$work/made$folder/licences"
   cp "$work/sources/$package/debian/copyright" "$work/made$folder/licences/$package.txt"
 }

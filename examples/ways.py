@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws docs/media/way-1.webp to way-5.webp, an example for each way in which an OBJ gets its weights from a rig
+"""Draws docs/media/way-1.webp to way-5.webp, an example of each method by which an OBJ gets its weights from a rig
 (docs/converting.md). Needs cwebp (Debian: webp).
 
     python3 examples/ways.py build/release/tools/sbfmt
@@ -10,9 +10,9 @@ import subprocess
 import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-MEDIA = os.path.join(HERE, os.pardir, "docs", "media")
-sys.path.insert(0, os.path.join(HERE, os.pardir, "tests", "e2e"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+MEDIA = os.path.join(FOLDER, os.pardir, "docs", "media")
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "tests", "e2e"))
 
 import obj_variants as variants  # noqa: E402
 from bundle_file import Bundle  # noqa: E402
@@ -22,7 +22,7 @@ SIZE = "300x210"
 
 
 def example(name):
-    return os.path.join(HERE, name, name + ".glb")
+    return os.path.join(FOLDER, name, name + ".glb")
 
 
 class Drawing:
@@ -48,7 +48,7 @@ class Drawing:
         subprocess.run(["cwebp", "-quiet", "-q", "75", self.path("way.png"), "-o", out], check=True)
 
     def named(self):
-        self.draw(1, os.path.join(HERE, "lizard", "lizard.obj"), example("lizard"), "55,20", "--show", "surface,hulls")
+        self.draw(1, os.path.join(FOLDER, "lizard", "lizard.obj"), example("lizard"), "55,20", "--show", "surface,hulls")
 
     def match(self):
         obj = self.mesh("dragon")

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes figure.sbf: a soft figure over a rigid skeleton that hangs by its hands from two blocks, and flesh.sbf: the
-same figure without the skeleton. See README.md.
+"""Writes figure.sbf and flesh.sbf. In figure.sbf a soft figure on a rigid skeleton hangs by its hands from two blocks;
+flesh.sbf is the same figure without the skeleton. See README.md.
 
     python3 make_figure.py            writes both beside this script
-    python3 make_figure.py --check    exits 1 where a file there is not what would be written
+    python3 make_figure.py --check    exits 1 if a file there is stale
     -o FOLDER                         another folder
 """
 
@@ -12,14 +12,14 @@ import math
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from implicit import Body, mesh_of  # noqa: E402
 
-CELL_M = 0.0548  # which gives about as many polygons as the paper's armadillo had
+CELL_M = 0.0548  # gives about as many polygons as the paper's armadillo has
 
-# name: parent, head, tail, half width of its hull, mass in kg, greatest swing and twist about its head in degrees,
+# name: parent, head, tail, half width of its hull, mass in kg, maximum swing and twist about its head in degrees,
 # damping of both in N m s
 PELVIS, NECK = (0.0, 0.95, 0.0), (0.0, 1.40, 0.0)
 LEFT = {
@@ -37,12 +37,12 @@ MIDDLE = {
 }
 
 
-def mirrored(place):
-    return (0.0 - place[0] if place[0] else 0.0, place[1], place[2])
+def mirrored(position):
+    return (0.0 - position[0] if position[0] else 0.0, position[1], position[2])
 
 
 def bones():
-    """All of them, as MIDDLE has them, parents first."""
+    """All bones of both sides, parents first."""
     found = dict(MIDDLE)
     for name, (parent, head, tail, *rest) in LEFT.items():
         for side in ("left", "right"):
@@ -87,7 +87,7 @@ def cross(a, b):
 
 
 def turn_to(direction):
-    """The rotation that takes +X, about which a joint twists, to a direction."""
+    """The rotation from +X, the twist axis of a joint, to a direction."""
     x, y, z = direction
     if x < -0.999999:
         return (0.0, 1.0, 0.0, 0.0)
@@ -122,8 +122,8 @@ def joint_text(name, bone, all_bones):
     frames = ""
     for which, body in (("a", parent), ("b", name)):
         _, h, t, *_ = all_bones[body]
-        off = [x - 0.5 * (a + b) for x, a, b in zip(head, h, t)]
-        frames += f'<frame_{which} position="{words(off)}" rotation="{axes}"/>\n'
+        offset = [x - 0.5 * (a + b) for x, a, b in zip(head, h, t)]
+        frames += f'<frame_{which} position="{words(offset)}" rotation="{axes}"/>\n'
     s, t = math.radians(swing), math.radians(twist)
     return (f'<spherical_joint id="{name}_joint" body_a="{parent}" body_b="{name}">\n{frames}<limits>\n'
             f'<limit target="swing" min="0" max="{s:.5g}"/>\n'
@@ -165,7 +165,7 @@ def bundle(mesh, with_skeleton):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
-    parser.add_argument("-o", dest="folder", default=HERE)
+    parser.add_argument("-o", dest="folder", default=FOLDER)
     options = parser.parse_args()
     mesh = mesh_of(build_body(), CELL_M, "figure")
     stale = 0

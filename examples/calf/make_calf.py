@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Models the example calf: one skinned mesh over a rig, as most characters come. Writes calf.glb beside this file. See
+"""Models the example calf: one skinned mesh on a rig, like most characters. Writes calf.glb beside this file. See
 modelling/character.py."""
 
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from character import Character, main  # noqa: E402
 from model_files import Bone, Material  # noqa: E402
@@ -17,7 +17,7 @@ CELL_M = 0.1
 MATERIALS = [Material("hide", (0.62, 0.42, 0.27), 0.8), Material("pale", (0.85, 0.76, 0.66), 0.7),
              Material("hoof", (0.12, 0.1, 0.09), 0.5)]
 
-# Boxes of cells: least and greatest x, y, z, both included. Cells lie between whole numbers, x and z from -0.5 to 0.5.
+# Boxes of cells: minimum and maximum x, y, z, both included. Cells lie between whole numbers, x and z from -0.5 to 0.5.
 BOXES = [((-1, 4, -3), (1, 6, 4)),                                                        # trunk
          ((0, 7, 3), (0, 7, 5)), ((-1, 8, 4), (1, 9, 6)), ((0, 8, 7), (0, 8, 7)),         # neck, head, muzzle
          ((-2, 9, 4), (-2, 9, 4)), ((2, 9, 4), (2, 9, 4)),                                # ears
@@ -56,7 +56,7 @@ def cage():
                         points[corner] = mesh.add_point(((corner[0] - 0.5) * CELL_M, corner[1] * CELL_M,
                                                          (corner[2] - 0.5) * CELL_M))
                     corners.append(points[corner])
-                # each of the six directions has an island of its own in the texture: seams, as real models have them
+                # each of the six directions gets its own island in the texture, so the mesh has seams like real models
                 at = [((mesh.points[c][u] + 1.0) / 6.0 + (2 * axis + side) % 3 / 3.0,
                        (mesh.points[c][v] + 1.0) / 4.0 + (2 * axis + side) // 3 / 2.0) for c in corners]
                 mesh.add_face(corners, at, material_at(cell))
@@ -90,4 +90,4 @@ def build():
 
 
 if __name__ == "__main__":
-    sys.exit(main(build, HERE))
+    sys.exit(main(build, FOLDER))

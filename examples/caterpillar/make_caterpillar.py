@@ -5,8 +5,8 @@ modelling/character.py."""
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from character import Character, main  # noqa: E402
 from implicit import Body, along, beyond, both_of, either_of, mesh_of, paint, refine, smile_about, within  # noqa: E402
@@ -74,10 +74,10 @@ def paint_rules():
 
 def build_bones():
     side = (1.0, 0.0, 0.0)
-    places = [HEAD[2] - 0.045, *(middle(i)[2] + 0.5 * STEP for i in range(1, SEGMENTS))]
-    places.append(middle(SEGMENTS - 1)[2] - 0.085)
+    positions = [HEAD[2] - 0.045, *(middle(i)[2] + 0.5 * STEP for i in range(1, SEGMENTS))]
+    positions.append(middle(SEGMENTS - 1)[2] - 0.085)
     names = [f"segment{i + 1}" for i in range(SEGMENTS)]
-    bones = [Bone(names[i], names[i - 1] if i else None, (0.0, 0.128, places[i]), (0.0, 0.128, places[i + 1]), side)
+    bones = [Bone(names[i], names[i - 1] if i else None, (0.0, 0.128, positions[i]), (0.0, 0.128, positions[i + 1]), side)
              for i in range(SEGMENTS)]
     bones.append(Bone("head", "segment1", (0.0, 0.150, 0.365), (0.0, 0.190, 0.500), side))
     for i in range(SEGMENTS):
@@ -104,4 +104,4 @@ def build():
 
 
 if __name__ == "__main__":
-    sys.exit(main(build, HERE))
+    sys.exit(main(build, FOLDER))

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Divides every polygon of an OBJ at the middles of its sides and its own, without smoothing: the same shape, four
-times as fine. Python 3, standard library only.
+"""Divides every polygon of an OBJ at its centre and at the midpoints of its sides, without smoothing: the same shape with four
+times as many polygons. Python 3, standard library only.
 
     subdivide.py IN.obj OUT.obj [--times 1]
 
-Places, objects and groups are kept; uvs, normals and materials are not.
+Positions, objects and groups are kept; uvs, normals and materials are not.
 """
 
 import argparse
@@ -12,7 +12,7 @@ import sys
 
 
 def read_obj(path):
-    """Places of all points; and of each object or group its statement and polygons, in the order of the file."""
+    """Positions of all points; and the statement and polygons of each object or group, in the order of the file."""
     points, parts = [], []
     with open(path, encoding="utf-8", errors="replace") as stream:
         for line in stream:
@@ -31,13 +31,13 @@ def read_obj(path):
 
 
 def corner_of(word, count):
-    """Place of a corner's point, from 0; those below 0 count from the end."""
+    """Index of a corner's point, from 0; negative indices in the file count from the end."""
     index = int(word.split("/")[0])
     return index - 1 if index > 0 else count + index
 
 
-def middle_of(places):
-    return tuple(sum(axis) / len(places) for axis in zip(*places))
+def middle_of(positions):
+    return tuple(sum(axis) / len(positions) for axis in zip(*positions))
 
 
 def divide(points, parts):
@@ -62,7 +62,7 @@ def divide(points, parts):
 
 
 def points_after(points, parts):
-    """The points in the order in which each part needs them, so that none belongs to another part's object."""
+    """Points in the order in which the parts use them, so that each point belongs to its part's object."""
     order, placed = [], []
     for head, polygons in parts:
         own = sorted({corner for polygon in polygons for corner in polygon})
@@ -74,9 +74,9 @@ def points_after(points, parts):
 
 def write_obj(path, points, parts):
     with open(path, "w", encoding="utf-8", newline="\n") as stream:
-        for head, places, polygons in points_after(points, parts):
+        for head, positions, polygons in points_after(points, parts):
             stream.write(head + "\n")
-            stream.writelines("v %.9g %.9g %.9g\n" % place for place in places)
+            stream.writelines("v %.9g %.9g %.9g\n" % position for position in positions)
             stream.writelines("f " + " ".join(str(corner + 1) for corner in polygon) + "\n" for polygon in polygons)
 
 

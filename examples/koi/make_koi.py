@@ -4,8 +4,8 @@
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from character import Character, main  # noqa: E402
 from implicit import Body, along, beyond, both_of, either_of, mesh_of, paint, refine, within  # noqa: E402
@@ -16,7 +16,7 @@ CELL_M = 0.0135
 MATERIALS = [Material("pearl", (0.92, 0.90, 0.86), 0.3), Material("orange", (0.90, 0.24, 0.03), 0.35),
              Material("ink", (0.05, 0.05, 0.06), 0.35), Material("fin", (0.95, 0.66, 0.46), 0.4),
              Material("eye", (0.012, 0.012, 0.014), 0.1)]
-DEPTH = 0.45  # it swims so high above the ground
+DEPTH = 0.45  # height above the ground at which it swims
 # from the head back: z, half width, half height
 SECTIONS = [(0.270, 0.044, 0.050), (0.180, 0.066, 0.080), (0.090, 0.070, 0.092), (0.000, 0.062, 0.086),
             (-0.090, 0.048, 0.068), (-0.180, 0.034, 0.047), (-0.265, 0.022, 0.032), (-0.350, 0.018, 0.040)]
@@ -52,10 +52,10 @@ def paint_rules():
 
 def build_bones():
     side = (1.0, 0.0, 0.0)
-    places = [0.215, 0.125, 0.035, -0.055, -0.145, -0.235, -0.330, -0.430, -0.530]
-    bones = [Bone("head", None, (0.0, DEPTH, places[0]), (0.0, DEPTH, 0.345), side)]
-    for i in range(len(places) - 1):
-        bones.append(Bone(f"body{i + 1}", f"body{i}" if i else "head", (0.0, DEPTH, places[i]), (0.0, DEPTH, places[i + 1]),
+    positions = [0.215, 0.125, 0.035, -0.055, -0.145, -0.235, -0.330, -0.430, -0.530]
+    bones = [Bone("head", None, (0.0, DEPTH, positions[0]), (0.0, DEPTH, 0.345), side)]
+    for i in range(len(positions) - 1):
+        bones.append(Bone(f"body{i + 1}", f"body{i}" if i else "head", (0.0, DEPTH, positions[i]), (0.0, DEPTH, positions[i + 1]),
                           side))
     for letter, s in (("L", 1.0), ("R", -1.0)):
         bones.append(Bone(f"fin.{letter}", "body1", (s * 0.062, DEPTH - 0.035, 0.165), (s * 0.180, DEPTH - 0.075, 0.130),
@@ -72,4 +72,4 @@ def build():
 
 
 if __name__ == "__main__":
-    sys.exit(main(build, HERE))
+    sys.exit(main(build, FOLDER))

@@ -9,7 +9,7 @@ from quad_mesh import sub
 
 
 def both_sides(half):
-    """Angles in degrees from the bottom up the +x side to the top; in radians, with the way down the other side."""
+    """Takes angles in degrees from the bottom up the +x side to the top. Returns radians, with the other side added."""
     return [math.radians(a) for a in half] + [math.radians(360.0 - a) for a in half[-2:0:-1]]
 
 
@@ -27,7 +27,7 @@ def trunk_material(s, k):
 
 
 def tail_material(s, k):
-    """As the trunk, with a dark band around the middle of each piece."""
+    """Like the trunk, with a dark band around the middle of each piece."""
     name = trunk_material(s, k)
     banded = any(0.75 * a + 0.25 * b < s < 0.25 * a + 0.75 * b for a, b in zip(TAIL_JOINTS, TAIL_JOINTS[1:]))
     return "stripe" if banded and name in ("back", "flank") else name

@@ -5,15 +5,15 @@ import math
 import modelling_path  # noqa: F401
 from quad_mesh import QuadMesh, add, dot, scale, sub, subdivided, unit
 
-# Across the foot, inner to outer side, as parts of the half width.
+# Across the foot, inner to outer side, as fractions of the half width.
 ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)
 # Heel, middle, knuckles: metres ahead of the ankle, half width, height at the middle; the knuckles lie on an arc.
 ROWS = ((-0.022, 0.019, 0.024, 0.0), (0.006, 0.026, 0.030, 0.0), (0.036, 0.033, 0.019, 0.010))
 # Toes, inner to outer: degrees from straight ahead, length.
 TOES = ((-42.0, 0.046), (-14.0, 0.054), (14.0, 0.052), (44.0, 0.044))
-# Along a toe: part of its length, half width, height, material.
+# Along a toe: fraction of its length, half width, height, material.
 TOE_RINGS = ((0.55, 0.0070, 0.0130, "back"), (1.05, 0.0140, 0.0175, "toe"))
-# The ankle's outline, (ahead, outward) as parts of its radius, in the order of the heel's rim.
+# The ankle's outline, (ahead, outward) as fractions of its radius, in the order of the heel's rim.
 SHAFT = ((-0.5, -0.85), (-0.9, -0.5), (-1.0, 0.0), (-0.9, 0.5), (-0.5, 0.85),
         (0.5, 0.85), (0.9, 0.5), (1.0, 0.0), (0.9, -0.5), (0.5, -0.85))
 SHAFT_RADIUS, SHAFT_HEIGHT, SHAFT_LEAN = 0.0212, 0.056, 0.010
@@ -26,8 +26,8 @@ def foot(leg):
     cage = QuadMesh(leg.names[2] + ".L")
 
     def put(forward, aside, up):
-        place = add((ankle[0], 0.0, ankle[2]), add(scale(ahead, forward), scale(outward, aside)))
-        return cage.add_point(add(place, (0.0, up, 0.0)))
+        position = add((ankle[0], 0.0, ankle[2]), add(scale(ahead, forward), scale(outward, aside)))
+        return cage.add_point(add(position, (0.0, up, 0.0)))
 
     def quad(*corners, material="back"):
         cage.add_face(corners, ((0.0, 0.0),) * 4, material)    # uvs come at the end
@@ -86,7 +86,7 @@ def toe(put, quad, size, number, knuckle):
 
 
 def unwrap(mesh, ankle, ahead, outward):
-    """Sole and upper side become two islands, each seen along y, spread a little along the normals so that steep
+    """Makes two islands, the sole and the upper side, projected along y. Spreads them a little along the normals so that steep
     sides keep some area."""
     seen = []
     for point, normal in zip(mesh.points, mesh.normals()):
@@ -94,10 +94,10 @@ def unwrap(mesh, ankle, ahead, outward):
         seen.append((dot(spread, outward), dot(spread, ahead)))
     low = [min(c[i] for c in seen) for i in (0, 1)]
     span = max(max(c[i] for c in seen) - low[i] for i in (0, 1))
-    place = [tuple((c[i] - low[i]) / span for i in (0, 1)) for c in seen]
+    position = [tuple((c[i] - low[i]) / span for i in (0, 1)) for c in seen]
 
     def uvs(face):
         down = mesh.face_normal(face)[1] < 0.0
-        return tuple((0.5 - 0.5 * place[c][0] if down else 0.5 + 0.5 * place[c][0], place[c][1]) for c in face.corners)
+        return tuple((0.5 - 0.5 * position[c][0] if down else 0.5 + 0.5 * position[c][0], position[c][1]) for c in face.corners)
 
     mesh.faces = [face._replace(uvs=uvs(face)) for face in mesh.faces]

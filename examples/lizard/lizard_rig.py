@@ -1,4 +1,4 @@
-"""The lizard's bones, their limits, and which section hangs on which."""
+"""The lizard's bones, their limits, and the bone of each section."""
 
 import math
 
@@ -17,7 +17,7 @@ def bone_of_section(name):
 
 
 def limits(swing_y, swing_z, twist):
-    """From degrees; a single number stands for both ways."""
+    """Limits in radians from degrees; a single number is the limit in both directions."""
     def pair(value):
         low, high = value if isinstance(value, tuple) else (-value, value)
         return round(math.radians(low), 4), round(math.radians(high), 4)

@@ -1,4 +1,4 @@
-"""The lizard's measures: colours, the line of its back, its joints, how thick it is where. Change the animal here.
+"""The lizard's measures: colours, the line of its back, its joints and its thickness. Change these to change the animal.
 
 Metres, +Y up, +Z towards the head; the legs given are the left ones (+X).
 """
@@ -90,7 +90,7 @@ class Leg:
         self.hinge = unit(cross(sub(ankle, knee), sub(hip, knee)))
         upper, lower = length(sub(knee, hip)), length(sub(ankle, knee))
         self.knee_at, self.ankle_at = upper, upper + lower
-        # the skin's axis passes the knee in a wide arc, for which it leaves the bones by about a centimetre on the way
+        # the skin's axis passes the knee in a wide arc, up to about a centimetre from the bones
         down, on = unit(sub(knee, hip)), unit(sub(ankle, knee))
         through = unit(add(down, on))
         keys = []

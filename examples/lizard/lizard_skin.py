@@ -1,4 +1,4 @@
-"""The lizard as one closed skin: the tube of the body, legs that grow out of holes in it, feet at their ends."""
+"""Makes the lizard's closed skin: the tube of the body, legs joined to holes in it, and feet at their ends."""
 
 import math
 from collections import Counter
@@ -15,10 +15,10 @@ from skin_files import planted, smooth_weights
 TRUNK_JOINTS = [METRES_AT[z] for z in (-0.205, -0.070, 0.055, 0.170, 0.240)]
 ROWS = (4, 4, 4, 4, 4, 5, 5, 5, 3)
 END_GRID = 4        # the patch that closes the neck, which the head replaces
-MARGIN_M = 0.004    # from a leg's edge on the body to the quads that stay
+MARGIN_M = 0.004    # gap between a leg's edge on the body and the nearest kept quads
 SHIN_M = 0.034      # before the ankle the lower leg ends, the foot's shaft goes on
 REACH_M = 0.022     # over which a point passes from bone to bone
-SOLE_M = 0.022      # what is lower follows its foot alone
+SOLE_M = 0.022      # points below it follow only their foot
 
 
 def body():
@@ -34,7 +34,7 @@ def body():
 
 
 def open_head():
-    """The head without what lies inside the neck."""
+    """The head without its part inside the neck."""
     mesh, joint = head(), TRUNK_JOINTS[-1]
     centre, ahead = BODY.centre(joint), BODY.frame(joint)[2]
     mesh.faces = [face for face in mesh.faces
@@ -50,7 +50,7 @@ def append(mesh, other):
 
 
 def edge_loops(mesh):
-    """The loops of points along open edges, each in the order of the faces that are missing there."""
+    """The loops of points along open edges, each in the order of the missing faces."""
     edges = mesh.directed_edges()
     after = {b: a for a, b in edges if (b, a) not in edges}
     loops = []
@@ -142,7 +142,7 @@ def cleared(mesh, points):
 
 
 def with_leg(mesh, leg):
-    """The body with a left leg: quads under the leg's first ring make room for it, and all that is open is joined."""
+    """The body with a left leg: removes the quads under the leg's first ring and joins the open edges."""
     tube = leg_tube(leg)
     base, normal = leg.skin.centre(leg.skin.at), leg.skin.normal
 
@@ -170,7 +170,7 @@ def with_leg(mesh, leg):
 
 
 def mirror_faces(mesh, first):
-    """Of the faces from the first on, those on the right become the mirror images of those on the left."""
+    """Makes faces on the right mirror images of those on the left, from face `first` on."""
     index = {p: c for c, p in enumerate(mesh.points)}
     left = [face for face in mesh.faces[first:] if sum(mesh.points[c][0] for c in face.corners) > 0.0]
     images = [[index[across_middle(mesh.points[c])] for c in face.corners] for face in left]
@@ -201,7 +201,7 @@ def neck_material(point):
 
 
 def skin_weights(points, bones):
-    """Of the bones that move the skin; the root and bare ends move none."""
+    """Weights of the bones that move the skin. The root and the bare ends move no points."""
     moving = [i for i, bone in enumerate(bones) if bone.limits]
     chosen = [bones[i] for i in moving]
     weights = planted(points, chosen, smooth_weights(points, chosen, REACH_M), SOLE_M)

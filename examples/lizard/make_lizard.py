@@ -14,8 +14,8 @@ import argparse
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, FOLDER)
 
 import modelling_path  # noqa: E402, F401
 from lizard_body import trunk_and_tail, upper_and_lower  # noqa: E402
@@ -30,7 +30,7 @@ from skin_files import skinned_glb_bytes  # noqa: E402
 
 TITLE = "Lizard: the example character of sbfmt"
 LICENCE = "MIT, as the rest of the repository"
-QUADS_LEAST, QUADS_MOST = 1200, 4000
+MIN_QUADS, MAX_QUADS = 1200, 4000
 
 
 def build_sections():
@@ -54,7 +54,7 @@ def build_files(sections, skin, bones, bone_of):
 
 
 def check(sections, skin, bones, bone_of, files, folder):
-    """Sentences on everything that is not as it must be."""
+    """Messages about everything that is wrong."""
     found = [f"{mesh.name}: {fault}" for mesh in sections for fault in check_section(mesh)]
     by_name = {mesh.name: mesh for mesh in sections}
     for mesh in sections:
@@ -63,8 +63,8 @@ def check(sections, skin, bones, bone_of, files, folder):
             found += check_mirror(mesh, by_name[stem + ".R"] if side else mesh)
     found += [f"{skin.name}: {fault}" for fault in check_surface(skin)] + check_mirror(skin, skin)
     quads = sum(len(mesh.faces) for mesh in sections)
-    if not QUADS_LEAST <= quads <= QUADS_MOST:
-        found.append(f"{quads} quads, not between {QUADS_LEAST} and {QUADS_MOST}")
+    if not MIN_QUADS <= quads <= MAX_QUADS:
+        found.append(f"{quads} quads, not between {MIN_QUADS} and {MAX_QUADS}")
     if min(p[1] for mesh in sections for p in mesh.points) != 0.0:
         found.append("the feet do not stand on y = 0")
     if sorted(bone_of.values()) != sorted(b.name for b in bones if b.limits):
@@ -95,7 +95,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true",
                         help="test the model and compare it with the files; writes nothing")
-    parser.add_argument("-o", "--out", default=HERE, metavar="DIR",
+    parser.add_argument("-o", "--out", default=FOLDER, metavar="DIR",
                         help="where the files are (default: beside this script)")
     options = parser.parse_args()
     sections, skin, bones = build_sections(), lizard_skin(), build_bones()

@@ -1,4 +1,4 @@
-"""Importing this makes examples/modelling importable, wherever the script was started from."""
+"""Adds examples/modelling to Python's path, so that scripts started in any folder can import it."""
 
 import os
 import sys

@@ -1,5 +1,5 @@
-"""Adds to a bundle what a mesh and a rig cannot hold: poses of a walk, chains of bones with names, and more. A bundle is XML, so this
-is text put into text; `sbfmt build` then makes the rest and writes it in its own order.
+"""Adds data to a bundle that a mesh and a rig cannot hold: poses of a walk, named chains of bones, and more. A bundle is XML, so the
+data is inserted as text; `sbfmt build` then makes the rest and writes the file in canonical order.
 
 Python 3 standard library only.
 """
@@ -16,8 +16,8 @@ from collections import namedtuple
 def quaternion_of(turn):
     """x, y, z, w of a rotation vector, radians."""
     angle = math.sqrt(sum(c * c for c in turn))
-    share = math.sin(0.5 * angle) / angle if angle > 0.0 else 0.0
-    return (*(c * share for c in turn), math.cos(0.5 * angle))
+    factor = math.sin(0.5 * angle) / angle if angle > 0.0 else 0.0
+    return (*(c * factor for c in turn), math.cos(0.5 * angle))
 
 
 def numbers(values):
@@ -25,7 +25,7 @@ def numbers(values):
 
 
 def product(a, b):
-    """Of two quaternions: the turn b, then a."""
+    """The product of two quaternions: rotation b, then a."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
@@ -41,8 +41,8 @@ def rest_rotations(text):
     return found
 
 
-# keys: {bone: turn or (turn, way)}, the turn a rotation vector in radians about the axes of the asset, whatever those of
-# the bone are; the way in metres, in the parent's frame
+# keys: {bone: rotation or (rotation, translation)}. The rotation is a vector in radians about the axes of the asset, not of the
+# bone; the translation is in metres, in the parent's frame
 Pose = namedtuple("Pose", "name distance speed keys mirrored", defaults=(True,))
 
 
@@ -50,10 +50,10 @@ def pose_text(pose, rotations):
     lines = [f'<pose id="pose.{pose.name}" name="{pose.name}" distance="{pose.distance:g}" speed="{pose.speed:g}"'
              + (' mirrored="true">' if pose.mirrored else ">")]
     for bone, key in pose.keys.items():
-        turn, way = key if isinstance(key[0], tuple) else (key, (0.0, 0.0, 0.0))
+        turn, translation = key if isinstance(key[0], tuple) else (key, (0.0, 0.0, 0.0))
         x, y, z, w = rotations["bone." + bone]
         own = product(product((-x, -y, -z, w), quaternion_of(turn)), (x, y, z, w))
-        lines.append(f'<pose_key bone="bone.{bone}" translation="{numbers(way)}" rotation="{numbers(own)}"/>')
+        lines.append(f'<pose_key bone="bone.{bone}" translation="{numbers(translation)}" rotation="{numbers(own)}"/>')
     return "\n".join([*lines, "</pose>"])
 
 
@@ -64,20 +64,20 @@ def bone_numbers(text):
 
 def retarget_chains(text, chains):
     """chains: {name: [bone, ...] from root to end}."""
-    places = bone_numbers(text)
+    number_of_bone = bone_numbers(text)
     return "\n".join(f'<retarget_chain id="chain.{name}" name="{name}">\n<bones>'
-                     + " ".join(str(places["bone." + bone]) for bone in bones) + "</bones>\n</retarget_chain>"
+                     + " ".join(str(number_of_bone["bone." + bone]) for bone in bones) + "</bones>\n</retarget_chain>"
                      for name, bones in chains.items())
 
 
 def without_poses(text):
-    """A bundle without the poses that `convert` proposes, for others to take their place."""
+    """Removes the poses that `convert` proposes from a bundle, so that others can replace them."""
     text = re.sub(r"<poses>.*?</poses>", "", text, flags=re.DOTALL)
     return re.sub(r' rest_pose="[^"]*"', "", text)
 
 
 def make_bundle(sbfmt, model, out, poses=(), chains=None, options=(), more=""):
-    """Converts the model, adds poses, chains and what more there is, as text, builds; ends the program where `sbfmt` fails."""
+    """Converts the model, adds poses, chains and other text, and builds. Ends the program if `sbfmt` fails."""
     with tempfile.TemporaryDirectory() as folder:
         source = os.path.join(folder, "source.sbf")
         calls = [[sbfmt, "convert", "--no-build", model, "-o", source, *options], [sbfmt, "build", source, "-o", out]]

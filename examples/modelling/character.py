@@ -1,4 +1,4 @@
-"""What the scripts of the skinned examples share: building, checking, writing one GLB.
+"""Functions for the scripts of the skinned examples: build, check and write one GLB.
 
   make_NAME.py            write NAME.glb beside the script
   make_NAME.py --check    build it again, test it, compare it with the file; exit status 1 if anything is off
@@ -21,7 +21,7 @@ LICENCE = "MIT, as the rest of the repository"
 # right side is to be the mirror image of the left; quads: whether all its faces are
 Character = namedtuple("Character", "name title mesh bones weights materials symmetric quads", defaults=(True, False))
 
-# Half the width of the middle, where points may follow either side.
+# Half the width of the middle strip, where points may follow bones of both sides.
 MIDDLE_M = 0.01
 
 
@@ -31,13 +31,13 @@ def build_bytes(character):
 
 
 def follows_other_side(point, bone):
-    """Whether a point beside the middle follows a limb of the other side most."""
+    """Whether a point outside the middle strip has its largest weight on a limb of the other side."""
     side = {".L": 1.0, ".R": -1.0}.get(bone.name[-2:], 0.0)
     return side * point[0] < -MIDDLE_M
 
 
 def check(character, data, path):
-    """Sentences on everything that is not as it must be."""
+    """Messages about everything that is wrong."""
     c = character
     found = check_section(c.mesh) if c.quads else check_surface(c.mesh)
     if c.symmetric:
@@ -48,7 +48,7 @@ def check(character, data, path):
     if stray:
         found.append(f"{len(stray)} points follow a limb of the other side, such as point {stray[0]}")
     idle = {i for i, bone in enumerate(c.bones) if bone.tail is not None} - {i for held in c.weights for i, _ in held}
-    found += [f"bone {c.bones[i].name} holds nothing" for i in sorted(idle) if c.bones[i].parent is not None]
+    found += [f"bone {c.bones[i].name} moves no point" for i in sorted(idle) if c.bones[i].parent is not None]
     if {f.material for f in c.mesh.faces} != {m.name for m in c.materials}:
         found.append("a material is unused or unknown")
     try:

@@ -1,11 +1,11 @@
-"""Smooth bodies from a few rounded parts: each part is a distance, parts melt into one another, and the surface where
-the sum is 0 becomes one closed mesh of quads.
+"""Makes smooth bodies from rounded parts. Each part is a distance field; parts blend smoothly, and the surface where the
+result is 0 becomes one closed mesh of quads.
 
 The mesh is made by naive surface nets (S. F. Gibson, "Constrained elastic surface nets", 1998): a point in each cell
-of a grid that the surface crosses, a quad around each crossed edge; the points are then spread evenly and drawn onto
-the surface. The melting of two distances is the polynomial smooth minimum.
+of a grid that the surface crosses, a quad around each crossed edge; the points are then spread evenly and moved onto
+the surface. Two distances blend by the polynomial smooth minimum.
 
-Python 3 standard library only. Metres, +Y up; what is on the left (+X) is mirrored by whoever adds it twice.
+Python 3 standard library only. Metres, +Y up. Parts are given on the left (+X); `both` adds the mirror image.
 """
 
 import math
@@ -13,8 +13,8 @@ from collections import namedtuple
 
 from quad_mesh import QuadMesh, add, dot, length, lerp, mean, scale, sub, unit
 
-# distance: of a point from the part's surface, negative inside; centre, radius: of a ball around the part; melt: metres
-# over which it melts into what was there before; carve: it is taken away instead
+# distance: from a point to the part's surface, negative inside; centre, radius: a bounding ball of the part; melt: distance in
+# metres over which it blends with the parts before it; carve: subtract the part
 Part = namedtuple("Part", "distance centre radius melt carve")
 
 
@@ -23,7 +23,7 @@ def across_middle(point):
 
 
 class Body:
-    """Parts in the order in which they melt into each other."""
+    """Parts, blended in the order in which they were added."""
 
     def __init__(self):
         self.parts = []
@@ -33,7 +33,7 @@ class Body:
         return self
 
     def cone(self, start, end, start_radius, end_radius, melt=0.02, carve=False):
-        """From one ball to another, as a limb between two joints."""
+        """A cone from one ball to another, such as a limb between two joints."""
         ax, ay, az = start
         dx, dy, dz = sub(end, start)
         squared = dx * dx + dy * dy + dz * dz
@@ -71,23 +71,23 @@ class Body:
             self.cone(points[i], points[i + 1], radii[i], radii[i + 1], melt if i == 0 else 0.4 * min(radii[i:i + 2]))
         return self
 
-    def both(self, add_part, *places, **how):
+    def both(self, add_part, *arguments, **how):
         """A part on the left and its mirror image: both(body.cone, hip, knee, 0.03, 0.02)."""
-        add_part(*places, **how)
+        add_part(*arguments, **how)
         tilt = how.get("tilt")
         if tilt:
             how = {**how, "tilt": (tilt[0], -tilt[1], -tilt[2])}
 
-        def mirrored(place):
-            if isinstance(place, list):
-                return [mirrored(p) for p in place]
-            return across_middle(place) if isinstance(place, tuple) else place
+        def mirrored(coordinates):
+            if isinstance(coordinates, list):
+                return [mirrored(p) for p in coordinates]
+            return across_middle(coordinates) if isinstance(coordinates, tuple) else coordinates
 
         # of a ball the second argument are radii, which have no side
         if add_part == self.ball:
-            add_part(across_middle(places[0]), *places[1:], **how)
+            add_part(across_middle(arguments[0]), *arguments[1:], **how)
         else:
-            add_part(*(mirrored(p) for p in places), **how)
+            add_part(*(mirrored(p) for p in arguments), **how)
         return self
 
     def __call__(self, x, y, z):
@@ -133,13 +133,13 @@ BLOCK = 8  # cells
 
 
 class _Grid:
-    """Values at the corners of cells, reckoned where they are asked for."""
+    """Values at the corners of cells, computed when needed."""
 
     def __init__(self, body, cell):
         self.body, self.cell, self.values = body, cell, {}
 
     def at(self, i, j, k):
-        key = (abs(i), j, k)  # the left decides, so that both sides are alike to the bit
+        key = (abs(i), j, k)  # computed on the left, so that both sides are equal to the bit
         value = self.values.get(key)
         if value is None:
             h = self.cell
@@ -150,7 +150,7 @@ class _Grid:
         return [self.at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) for c in range(8)]
 
     def crossed_cells(self):
-        """Cells whose corners are not all on one side; blocks far from the surface are passed over whole."""
+        """Cells whose corners are not all on one side. Blocks far from the surface are skipped."""
         h, size = self.cell, BLOCK
         ranges = [range(math.floor(low / h / size) - 1, math.floor(high / h / size) + 2) for low, high in self.body.box()]
         far = 0.5 * math.sqrt(3.0) * size * h * 1.5
@@ -168,7 +168,7 @@ class _Grid:
                 k = k0
                 while k < k0 + BLOCK:
                     near = abs(self.at(i, j, k))
-                    if near > 3.0 * h:  # so far from the surface that the next cells cannot be crossed
+                    if near > 3.0 * h:  # too far from the surface for the next cells to be crossed
                         k += max(1, int(near / h * 0.6 - 1.0))
                         continue
                     corners = self.corners(i, j, k)
@@ -177,12 +177,12 @@ class _Grid:
                     k += 1
 
 
-def _around(place, corner, axis):
+def _around(coordinates, corner, axis):
     """The cells around the edge that leaves a corner of a cell along an axis."""
     u, v = (axis + 1) % 3, (axis + 2) % 3
     for du in (0, 1):
         for dv in (0, 1):
-            beside = list(place)
+            beside = list(coordinates)
             beside[u] += (corner >> u & 1) - du
             beside[v] += (corner >> v & 1) - dv
             yield tuple(beside)
@@ -202,7 +202,7 @@ def _sheets(corners):
     for side in SIDES:
         ring = [(side[k], side[(k + 1) % 4]) for k in range(4)]
         crossed = [(min(e), max(e)) for e in ring if inside[e[0]] != inside[e[1]]]
-        if len(crossed) == 4 and inside[side[0]]:  # two corners inside, across from each other: each for itself
+        if len(crossed) == 4 and inside[side[0]]:  # two opposite corners inside: two sheets
             crossed = crossed[3:] + crossed[:3]
         for first, second in zip(crossed[::2], crossed[1::2]):
             sheet[root(first)] = root(second)
@@ -211,29 +211,29 @@ def _sheets(corners):
 
 def _net(body, cell, name):
     mesh, point_of, grid = QuadMesh(name), {}, _Grid(body, cell)
-    cells = {place: (corners, _sheets(corners)) for place, corners in grid.crossed_cells()}
-    waiting = sorted(cells)  # distances of flat parts are rough: what lies beside a crossed edge may have been passed over
+    cells = {coordinates: (corners, _sheets(corners)) for coordinates, corners in grid.crossed_cells()}
+    waiting = sorted(cells)  # distances of flat parts are approximate: cells beside a crossed edge may have been skipped
     while waiting:
-        place = waiting.pop()
-        for a, b in cells[place][1]:
+        coordinates = waiting.pop()
+        for a, b in cells[coordinates][1]:
             k = (a ^ b).bit_length() - 1
-            for beside in _around(place, a, k):
+            for beside in _around(coordinates, a, k):
                 if beside not in cells:
                     corners = grid.corners(*beside)
                     cells[beside] = (corners, _sheets(corners))
                     waiting.append(beside)
-    for place in sorted(cells):
-        corners, sheets = cells[place]
+    for coordinates in sorted(cells):
+        corners, sheets = cells[coordinates]
         for sheet in sorted(set(sheets.values())):
             crossings = []
             for a, b in (edge for edge in EDGES if sheets.get(edge) == sheet):
                 t = corners[a] / (corners[a] - corners[b])
                 crossings.append(tuple((a >> k & 1) + t * ((b >> k & 1) - (a >> k & 1)) for k in range(3)))
             middle = mean(crossings)
-            index = mesh.add_point(tuple((place[k] + middle[k]) * cell for k in range(3)))
-            point_of.update({(place, edge): index for edge in EDGES if sheets.get(edge) == sheet})
-    for place in sorted(cells):
-        corners = cells[place][0]
+            index = mesh.add_point(tuple((coordinates[k] + middle[k]) * cell for k in range(3)))
+            point_of.update({(coordinates, edge): index for edge in EDGES if sheets.get(edge) == sheet})
+    for coordinates in sorted(cells):
+        corners = cells[coordinates][0]
         for axis in range(3):
             here, there = corners[0] < 0.0, corners[1 << axis] < 0.0
             if here == there:
@@ -241,16 +241,16 @@ def _net(body, cell, name):
             u, v = (axis + 1) % 3, (axis + 2) % 3
             ring = []
             for du, dv in ((0, 0), (1, 0), (1, 1), (0, 1)):  # the cells around the edge, which each sees elsewhere
-                beside, at = list(place), du << u | dv << v
+                beside, at = list(coordinates), du << u | dv << v
                 beside[u] -= du
                 beside[v] -= dv
                 ring.append(point_of[tuple(beside), (at, at | 1 << axis)])
             mesh.add_face(ring if here else ring[::-1], ((0.0, 0.0),) * 4, "")
     image = {}
-    for (place, edge), index in point_of.items():
-        if place[0] >= 0:
+    for (coordinates, edge), index in point_of.items():
+        if coordinates[0] >= 0:
             other = tuple(sorted(corner ^ 1 for corner in edge))
-            image[index] = point_of[(-1 - place[0], *place[1:]), other]
+            image[index] = point_of[(-1 - coordinates[0], *coordinates[1:]), other]
     return mesh, image
 
 
@@ -267,9 +267,9 @@ def _onto(body, p, most):
         squared = dot(slope, slope)
         if squared < 1e-6:
             return p
-        way = scale(slope, -body(*p) / squared)
-        size = length(way)
-        p = add(p, way if size <= most else scale(way, most / size))
+        step = scale(slope, -body(*p) / squared)
+        size = length(step)
+        p = add(p, step if size <= most else scale(step, most / size))
     return p
 
 
@@ -300,7 +300,7 @@ def mesh_of(body, cell, name, rounds=4):
 
 
 def _back(point, side, flip):
-    """A point reckoned on the left, where it belongs: on its own side, or in the middle."""
+    """Moves a point that was computed on the left back to its own side, or to the middle."""
     if abs(side) < 1e-12:
         return (0.0, point[1], point[2])
     return across_middle(point) if flip else point
@@ -315,7 +315,7 @@ def refine(mesh, body, field):
         key = (min(a, b), max(a, b))
         if key not in middles:
             ends = [mesh.points[c] for c in key]
-            flip = sum(p[0] for p in ends) < 0.0  # what is reckoned on the left is alike on both sides
+            flip = sum(p[0] for p in ends) < 0.0  # values computed on the left are equal on both sides
             p = mean([across_middle(p) for p in ends] if flip else ends)
             p = _onto(body, p, 0.2 * length(sub(*ends)))
             middles[key] = mesh.add_point(_back(p, sum(q[0] for q in ends), flip))
@@ -349,26 +349,26 @@ def refine(mesh, body, field):
 def paint(mesh, body, rules, base, snap=0.3):
     """Gives every face a material: that of the last rule whose field is negative on it, else `base`.
 
-    rules: [(material, field)], field(p) a distance of p from the painted region, about in metres. Colours meet in smooth
-    lines: points near a region's border are drawn onto it, other faces that it crosses are cut in two."""
+    rules: [(material, field)], field(p) an approximate distance in metres from p to the painted region. Borders of colours are
+    smooth: points near a region's border are moved onto it, and other faces that it crosses are cut in two."""
     mesh.faces = [face._replace(material=base) for face in mesh.faces]
     for material, field in rules:
         values = [field(p) for p in mesh.points]
         _snap(mesh, body, values, snap)
         _cut(mesh, body, values, material)
-    # seen from the side: enough for a texture to be laid on
+    # projected from the side: good enough for a texture
     mesh.faces = [face._replace(uvs=tuple((round(mesh.points[c][2], 5), round(mesh.points[c][1], 5)) for c in face.corners))
                   for face in mesh.faces]
     return mesh
 
 
 def _images(mesh):
-    place = {p: i for i, p in enumerate(mesh.points)}
-    return [place[across_middle(p)] for p in mesh.points]
+    index_of = {p: i for i, p in enumerate(mesh.points)}
+    return [index_of[across_middle(p)] for p in mesh.points]
 
 
 def _snap(mesh, body, values, snap):
-    """Draws points onto the border where it cuts an edge close to them; their value becomes 0."""
+    """Moves points onto the border if it cuts an edge close to them; their value becomes 0."""
     beside, image, moved = neighbours(mesh), _images(mesh), {}
     for i, p in enumerate(mesh.points):
         near = []
@@ -427,7 +427,7 @@ def _pieces(corners, values):
     return [one, other]
 
 
-# ---- Fields to paint by ----
+# ---- Fields for painting ----
 
 def within(centre, radius, both=True):
     """Inside a ball, and its mirror image."""
@@ -445,13 +445,13 @@ def beyond(origin, direction):
 
 def along(start, end, radius, end_radius=None):
     """Near a line, and its mirror image."""
-    way = sub(end, start)
-    squared, grow = dot(way, way), (radius if end_radius is None else end_radius) - radius
+    axis = sub(end, start)
+    squared, grow = dot(axis, axis), (radius if end_radius is None else end_radius) - radius
 
     def field(p):
         q = sub((abs(p[0]), p[1], p[2]), start)
-        t = min(max(dot(q, way) / squared, 0.0), 1.0)
-        return length(sub(q, scale(way, t))) - radius - t * grow
+        t = min(max(dot(q, axis) / squared, 0.0), 1.0)
+        return length(sub(q, scale(axis, t))) - radius - t * grow
     return field
 
 

@@ -1,8 +1,8 @@
 """Lofting: closed quad meshes swept along a curve, with rounded ends that need neither fans nor n-gons.
 
 A `surface` is anything with two methods: `centre(s)`, a point of the axis at s metres along it, and `point(s, angle)`,
-the point of the skin there. `loft` cuts a piece out of it, from one joint to the next. Past each joint the piece goes
-on a little and closes like a ball inside its neighbour: the joint shows no gap when it bends, no step when it does not.
+the point of the skin there. `loft` cuts a piece out of it, from one joint to the next. The piece extends a little past
+each joint and ends in a round cap inside its neighbour, so that the joint has neither a gap when bent nor a step when straight.
 
 Python 3 standard library only.
 """
@@ -23,7 +23,7 @@ def hermite(start, slope_start, end, slope_end, t):
 
 class Keys:
     """Values keyed along a parameter, joined by a cubic with continuous slope (Catmull-Rom on uneven knots).
-    Beyond the ends it goes on in a straight line."""
+    Beyond the ends it continues in a straight line."""
 
     def __init__(self, rows):
         self.at = [row[0] for row in rows]
@@ -84,7 +84,7 @@ class Tube:
         return add(self.centre(s), add(scale(across, side), scale(upward, height)))
 
     def distance(self, point, start, end, samples=48):
-        """Roughly how far the point is outside the skin between start and end (negative inside), in metres."""
+        """Approximate distance of the point from the skin between start and end, in metres; negative inside."""
         step = (end - start) / samples
         best = min((start + step * i for i in range(samples + 1)), key=lambda s: length(sub(point, self.centre(s))))
         for _ in range(3):
@@ -101,11 +101,11 @@ class Tube:
 
 
 class Collar:
-    """A tube that grows out of another body, as a limb out of a trunk: where it leaves, it widens into a soft fillet.
+    """A tube that joins another body, such as a limb a trunk. It widens to a fillet where they join.
 
     outside(point): signed distance to the other skin. The ring at `self.at` metres is a circle drawn on that skin
-    around the place where the tube's axis pierces it, `flare` metres wider than the tube and `sink` metres under the
-    skin, so that both meshes cross in one clean line; from `reach` metres further out the tube is its plain self."""
+    around the point where the tube's axis crosses it, `flare` metres wider than the tube and `sink` metres under the
+    skin, so that both meshes cross in one line. From `reach` metres further out the tube has its own radius."""
 
     def __init__(self, tube, outside, flare, reach, sink):
         self.tube, self.outside, self.flare, self.reach, self.sink = tube, outside, flare, reach, sink
@@ -119,7 +119,7 @@ class Collar:
                                  for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))))
 
     def _spoke(self, angle):
-        """The tube's radius at this angle where it leaves, turned into the other skin's tangent plane."""
+        """The tube's radius vector at this angle where it joins, rotated into the other skin's tangent plane."""
         base, along = self.centre(self.at), unit(self.tube.axis.slope(self.at))
         radial = sub(self.tube.point(self.at, angle), base)
         # the smallest rotation that takes `along` to the normal, after Rodrigues
@@ -152,7 +152,7 @@ class Collar:
         return hermite(seam, leaving, goal, arriving, part)
 
 
-# depth: metres from the joint to the tip; loops: where extra rings go, as parts of the depth; power: 2 is an
+# depth: metres from the joint to the tip; loops: positions of extra rings, as fractions of the depth; power: 2 is an
 # ellipsoid, more keeps full width for longer; grid: how many quads wide the closing patch is (even).
 Cap = namedtuple("Cap", "depth loops power grid", defaults=((0.3,), 2.7, 4))
 
@@ -179,15 +179,15 @@ def _along(surface, s):
 
 
 def border_walk(columns, rows=None):
-    """(row, column) of the border places of a grid of columns x rows quads, from (0, 0) along row 0 and around."""
+    """(row, column) of the border points of a grid of columns x rows quads, from (0, 0) along row 0 and around."""
     rows = columns if rows is None else rows
     return ([(0, c) for c in range(columns)] + [(r, columns) for r in range(rows)]
             + [(rows, c) for c in range(columns, 0, -1)] + [(r, 0) for r in range(rows, 0, -1)])
 
 
 def coons(border, columns, rows, row, column):
-    """A place inside a grid filled from its border, a map from (row, column) to points: the bilinear patch of S. Coons
-    (1967). Also returns how far out the place is: 0 in the middle, 1 on the border, as radii run in a circle."""
+    """A point inside a grid, interpolated from its border, a map from (row, column) to points: the bilinear patch of S. Coons
+    (1967). Also returns the point's relative radius: 0 in the middle, 1 on the border."""
     u, v = column / columns, row / rows
     sides = add(lerp(border[0, column], border[rows, column], v), lerp(border[row, 0], border[row, columns], u))
     corners = lerp(lerp(border[0, 0], border[0, columns], u), lerp(border[rows, 0], border[rows, columns], u), v)

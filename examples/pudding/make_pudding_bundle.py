@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the pudding's bundle: the model, a clip of a hop, and what makes a hop a pudding's.
+"""Makes the pudding's bundle: the model, a clip of a hop, and followers that squash it and shake its cherry.
 
   make_pudding_bundle.py SBFMT OUT.sbf [CONVERT'S OPTIONS...]      SBFMT: the program
 """
@@ -8,13 +8,13 @@ import math
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from bundle_text import make_bundle, numbers  # noqa: E402
 
 HEIGHT_M, GRAVITY, STANDS_S, KEY_S = 0.15, 9.81, 0.25, 1 / 60
-SPEED = 0.4  # m/s, at which it does not slide: driven otherwise it does
+SPEED = 0.4  # m/s at which it does not slide
 
 FOLLOWERS = """<followers>
 <follower id="follower.squash" name="squash" bone="bone.body" channel="squash" frequency="2.8" damping_ratio="0.25" \
@@ -26,7 +26,7 @@ response="1"/>
 
 
 def hop():
-    """Stands, then flies as a stone does; and stays where it stands while its drive carries it on."""
+    """The clip of a hop: stands, then flies on a parabola. While standing it moves back against the drive, so that it does not slide."""
     flies_s = 2 * math.sqrt(2 * HEIGHT_M / GRAVITY)
     duration, times, values = STANDS_S + flies_s, [], []
     count = round(duration / KEY_S)
@@ -51,7 +51,7 @@ def main():
     if len(sys.argv) < 3:
         print(__doc__, file=sys.stderr)
         return 2
-    make_bundle(sys.argv[1], os.path.join(HERE, "pudding.glb"), sys.argv[2], options=sys.argv[3:], more=FOLLOWERS + hop())
+    make_bundle(sys.argv[1], os.path.join(FOLDER, "pudding.glb"), sys.argv[2], options=sys.argv[3:], more=FOLLOWERS + hop())
     return 0
 
 

@@ -4,8 +4,8 @@
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from character import Character, main  # noqa: E402
 from implicit import Body, along, beyond, both_of, either_of, mesh_of, paint, refine, within  # noqa: E402
@@ -40,9 +40,9 @@ def build_body():
     body.both(body.ball, (0.072, 0.722, 0.440), (0.040, 0.016, 0.026), melt=0.022, tilt=(0, 0, -16))  # brows
     body.both(body.cone, EAR[0], EAR[1], 0.026, 0.036, melt=0.026)
     body.both(body.cone, EAR[1], EAR[2], 0.036, 0.026, melt=0.016)
-    for (hip, knee, ankle, ball), girth in ((FORE, 1.0), (HIND, 1.12)):
-        body.both(body.cone, hip, knee, 0.074 * girth, 0.048 * girth, melt=0.06)
-        body.both(body.cone, knee, ankle, 0.046 * girth, 0.036, melt=0.02)
+    for (hip, knee, ankle, ball), radius_at in ((FORE, 1.0), (HIND, 1.12)):
+        body.both(body.cone, hip, knee, 0.074 * radius_at, 0.048 * radius_at, melt=0.06)
+        body.both(body.cone, knee, ankle, 0.046 * radius_at, 0.036, melt=0.02)
         body.both(body.cone, ankle, (ball[0], 0.036, ball[2] - 0.02), 0.036, 0.040, melt=0.02)
         body.both(body.ball, (ball[0], 0.034, ball[2]), (0.048, 0.034, 0.056), melt=0.02)
         for x in (-0.027, 0.0, 0.027):
@@ -96,4 +96,4 @@ def build():
 
 
 if __name__ == "__main__":
-    sys.exit(main(build, HERE))
+    sys.exit(main(build, FOLDER))

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Models the example snake, a chain and nothing else: writes snake.glb beside this file. See modelling/character.py."""
+"""Models the example snake, a chain without limbs: writes snake.glb beside this file. See modelling/character.py."""
 
 import math
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from character import Character, main  # noqa: E402
 from implicit import Body, along, beyond, both_of, either_of, mesh_of, outside, paint, refine, within  # noqa: E402
@@ -21,20 +21,20 @@ LINKS, STEP, NECK_Z = 18, 0.105, 0.78
 EYE = (0.042, 0.083, 0.885)
 
 
-def girth(i):
+def radius_at(i):
     """Radius where link i begins."""
     t = i / LINKS
     return 0.034 + 0.026 * math.sin(math.pi * min(1.0, t * 1.15) ** 0.75) - 0.028 * t ** 5 * 1.0
 
 
 def place(i):
-    return (0.0, girth(i) * 0.86, NECK_Z - STEP * i)
+    return (0.0, radius_at(i) * 0.86, NECK_Z - STEP * i)
 
 
 def build_body():
     body = Body()
     for i in range(LINKS):
-        body.cone(place(i), place(i + 1), girth(i), girth(i + 1) if i + 1 < LINKS else 0.010, melt=0.01)
+        body.cone(place(i), place(i + 1), radius_at(i), radius_at(i + 1) if i + 1 < LINKS else 0.010, melt=0.01)
     body.ball((0.0, 0.056, 0.850), (0.056, 0.038, 0.078), melt=0.03)                     # skull
     body.ball((0.0, 0.047, 0.915), (0.040, 0.027, 0.052), melt=0.03)                     # snout
     body.both(body.ball, EYE, 0.0175, melt=0.004)
@@ -43,8 +43,8 @@ def build_body():
 
 
 def paint_rules():
-    diamonds = either_of(*(along((0.0, 2.2 * girth(i), place(i)[2] - 0.05), (girth(i), 1.0 * girth(i), place(i)[2] - 0.05),
-                                 0.95 * girth(i), 0.2 * girth(i)) for i in range(LINKS - 1)))
+    diamonds = either_of(*(along((0.0, 2.2 * radius_at(i), place(i)[2] - 0.05), (radius_at(i), 1.0 * radius_at(i), place(i)[2] - 0.05),
+                                 0.95 * radius_at(i), 0.2 * radius_at(i)) for i in range(LINKS - 1)))
     stripe = both_of(along((0.030, 0.070, 0.945), (0.060, 0.062, 0.760), 0.016, 0.012), outside(within(EYE, 0.010)))
     belly = either_of(along((0.0, -0.040, 0.960), (0.0, -0.050, -0.60), 0.080, 0.078),
                       along((0.0, -0.050, -0.60), (0.0, -0.020, -1.10), 0.078, 0.024))
@@ -71,4 +71,4 @@ def build():
 
 
 if __name__ == "__main__":
-    sys.exit(main(build, HERE))
+    sys.exit(main(build, FOLDER))

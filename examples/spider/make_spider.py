@@ -6,8 +6,8 @@ import math
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from character import Character, main  # noqa: E402
 from implicit import Body, along, beyond, both_of, either_of, mesh_of, paint, refine, within  # noqa: E402
@@ -19,7 +19,7 @@ CELL_M = 0.019
 MATERIALS = [Material("dark", (0.075, 0.070, 0.090), 0.8), Material("band", (0.80, 0.32, 0.10), 0.7),
              Material("pale", (0.88, 0.80, 0.66), 0.8), Material("fang", (0.10, 0.42, 0.40), 0.3),
              Material("eye", (0.015, 0.020, 0.025), 0.08), Material("glint", (1.0, 1.0, 1.0), 0.2)]
-# how far round each left leg points, 0 ahead; how far out its foot stands; where it leaves the body
+# each left leg: its direction as an angle, 0 ahead; distance of its foot; its root on the body
 LEGS = ((32.0, 0.435, 0.115), (70.0, 0.400, 0.045), (108.0, 0.400, -0.030), (146.0, 0.455, -0.095))
 EYES = (((0.052, 0.262, 0.196), 0.043), ((0.112, 0.280, 0.148), 0.027), ((0.106, 0.296, 0.062), 0.018),
         ((0.098, 0.284, -0.022), 0.016))
@@ -101,4 +101,4 @@ def build():
 
 
 if __name__ == "__main__":
-    sys.exit(main(build, HERE))
+    sys.exit(main(build, FOLDER))

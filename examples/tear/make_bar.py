@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes bar.sbf: a metre of soft matter that hangs from its upper end and is thinnest in the middle, where it
-tears under its own weight.
+"""Writes bar.sbf: a soft bar of one metre that hangs from its upper end. It is thinnest in the middle and tears there
+under its own weight.
 
     python3 make_bar.py            writes bar.sbf beside this script
-    python3 make_bar.py --check    exits 1 where the file there is not what would be written
+    python3 make_bar.py --check    exits 1 if the file there is stale
     -o FOLDER                      another folder
 """
 
@@ -17,18 +17,18 @@ HIGH, HALF_WIDTH, LOW = 1.0, 0.125, 0.2  # m
 
 
 def half_width(share):
-    """Of the cross-section at that share of the way down."""
+    """The size of the cross-section at a fraction of the length from the top."""
     return HALF_WIDTH * (1 - 0.35 * math.exp(-(((share - 0.5) / 0.09) ** 2)))
 
 
 class Bar:
-    """Quads over a lattice of places, each point once."""
+    """Quads over a lattice of positions, each point once."""
 
     def __init__(self):
         self.numbers, self.points, self.quads = {}, [], []
 
     def point(self, i, j, k):
-        """Number of the point at a place: i down, j and k across."""
+        """Index of the point at a lattice position: i down, j and k across."""
         if (i, j, k) not in self.numbers:
             s = half_width(i / ALONG)
             place = ((2 * j / ACROSS - 1) * s, LOW + HIGH * (1 - i / ALONG), (2 * k / ACROSS - 1) * s)
@@ -66,7 +66,7 @@ def make_bar():
 
 
 def bundle(bar):
-    """The text of the file: the surface is shown as it is, its upper end held by the world."""
+    """The text of the file: the surface is rendered as it is, and its upper end is pinned to the world."""
     numbers = " ".join(f"{x:g}" for place in bar.points for x in place)
     sizes = " ".join("4" for _ in bar.quads)
     corners = " ".join(str(corner) for quad in bar.quads for corner in quad)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the yeti's bundle: the model, the poses of its walk and of its run, its weight, and named chains for the motion of
-others.
+"""Makes the yeti's bundle: the model, the poses of its walk and run, a weight follower, and named chains for motion of other
+characters.
 
   make_bundle.py SBFMT OUT.sbf [CONVERT'S OPTIONS...]      SBFMT: the program
 """
@@ -8,8 +8,8 @@ others.
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from bundle_text import Pose, make_bundle  # noqa: E402
 
@@ -25,19 +25,19 @@ response="2" strength="1.2" limit="0.35"/>
 
 
 def arms(left, right, elbow):
-    """Turned about +X: positive swings back what hangs down; elbows bend forward; and somewhat down to the sides."""
+    """Rotations about +X: a positive angle swings a hanging arm back; elbows bend forward; arms are lowered at the sides."""
     return {"upper_arm.L": (left, 0.0, -0.30), "upper_arm.R": (right, 0.0, 0.30), "forearm.L": (-elbow, 0.0, 0.0),
             "forearm.R": (-elbow, 0.0, 0.0)}
 
 
 def poses():
-    """The first half of each cycle, from the left foot's coming down to the right one's. The other half is its mirror
-    image: what is said of the pass over the left foot goes for that over the right one."""
+    """The first half of each cycle, from the contact of the left foot to that of the right foot. The other half is its mirror
+    image."""
     def stride(name, length, speed, swing, elbow, lean, bob):
         yield Pose(f"{name}_pass", 0.25 * length, speed, {
             "hips": ((0.0, 0.0, -0.3 * swing * 0.2), (0.0, bob, 0.0)), "spine": (lean, 0.0, 0.0),
             "head": (-0.5 * lean, 0.0, 0.08), **arms(0.0, 0.0, 0.8 * elbow)})
-        # the right foot comes down: the left arm is ahead, and the left shoulder with it
+        # contact of the right foot: the left arm and the left shoulder are ahead
         yield Pose(f"{name}_reach", 0.5 * length, speed, {
             "hips": ((0.0, 0.0, 0.0), (0.0, -bob, 0.0)), "spine": (1.2 * lean, -0.10 * swing, 0.0),
             "chest": (0.0, -0.16 * swing, 0.0), "head": (-0.5 * lean, 0.20 * swing, 0.0), **arms(-swing, swing, elbow)})
@@ -48,7 +48,7 @@ def main():
     if len(sys.argv) < 3:
         print(__doc__, file=sys.stderr)
         return 2
-    make_bundle(sys.argv[1], os.path.join(HERE, "yeti.glb"), sys.argv[2], poses(), CHAINS, sys.argv[3:], FOLLOWERS)
+    make_bundle(sys.argv[1], os.path.join(FOLDER, "yeti.glb"), sys.argv[2], poses(), CHAINS, sys.argv[3:], FOLLOWERS)
     return 0
 
 

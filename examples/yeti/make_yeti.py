@@ -4,8 +4,8 @@
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(FOLDER, os.pardir, "modelling"))
 
 from character import Character, main  # noqa: E402
 from implicit import Body, along, beyond, both_of, either_of, mesh_of, paint, refine, smile_about, within  # noqa: E402
@@ -88,4 +88,4 @@ def build():
 
 
 if __name__ == "__main__":
-    sys.exit(main(build, HERE))
+    sys.exit(main(build, FOLDER))

@@ -192,7 +192,7 @@ class Table(unittest.TestCase):
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complained):
             self.assertEqual(make_packages.make_each(Some, ["npm", "debian", "tarball"]), 2)
         self.assertEqual(said.getvalue(), "npm       NOT MADE: there is no npm\n"
-                                          "debian    NOT MADE: a command failed; what it printed stands above\ntarball   made\n")
+                                          "debian    NOT MADE: a command failed; see its output above\ntarball   made\n")
         self.assertIn("no room", complained.getvalue())
 
 
