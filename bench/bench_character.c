@@ -1,11 +1,11 @@
-/* The smallest soft character: a limb of 1 m that hangs from a wall, 240 calibrated tetrahedra under a skin
- * of 962 vertices, swings under its weight for two seconds.
+/* Measures the smallest soft character: a limb of 1 m that hangs from a wall, with 240 calibrated
+ * tetrahedra and a skin of 962 vertices. It swings under its weight for two seconds.
  *
- * `frame_us` is a control tick of 1/60 s (held points, substeps, contact with the ground asked for) and the
- * skin's positions and normals; `tick_us` and `skin_us` are its parts, `worst_us` the frame that costs most.
- * Every run does the very same: each frame's time is its least of the runs, and columns are means over
- * frames. `strain` is the greatest of any element at any tick, `residual` and `period_error` what calibration
- * says is left of the difference to 20,000 elements. */
+ * `frame_us` is the time of a control tick of 1/60 s (pinned points, substeps, ground contact query) and
+ * of the skin's positions and normals. `tick_us` and `skin_us` are its parts, `worst_us` the slowest
+ * frame. All runs are identical: the time of a frame is the minimum of the runs, and columns are means
+ * over frames. `strain` is the maximum of any element at any tick. `residual` and `period_error` are
+ * calibration's own estimates of the remaining difference to 20,000 elements. */
 #define _DEFAULT_SOURCE
 #include <math.h>
 #include <stdio.h>

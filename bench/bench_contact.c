@@ -1,16 +1,16 @@
-/* What contacts cost: the frame of a body in contact over that of the same body without.
+/* Measures the cost of contacts: the frame time of a body in contact over that of the same body without.
  *
- * An armadillo of one metre and a slab of 1 x 0.2 x 1 m, about 2,700 tetrahedra of 0.1 MPa each, one control
- * tick of 1/60 s a frame, awake, one thread, over their flight. `rest`: lying on the floor. `landing`: the
- * frames from the first touch on, dropped from a hand's breadth. Two of a character that walk side by side,
- * over the two where bodies do not touch each other (`pair_alone`): where they may and are 4 m apart
- * (`pair_apart`), and so close that they do (`pair_touching`). Medians of the frames' processor time, where
- * each frame counts the least of several runs.
+ * The bodies are an armadillo of one metre and a slab of 1 x 0.2 x 1 m, about 2,700 tetrahedra of 0.1 MPa
+ * each. A frame is one control tick of 1/60 s, awake, on one thread; the reference is their flight.
+ * `rest`: lying on the floor. `landing`: the frames from the first contact on, dropped from 10 cm. Two
+ * characters walk side by side; the reference is a world in which bodies do not collide (`pair_alone`).
+ * `pair_apart`: bodies may collide and are 4 m apart. `pair_touching`: close enough to collide. Values are
+ * medians of the frames' processor time; the time of a frame is the minimum of several runs.
  *
- * `threads`: bodies of about 100,000 tetrahedra, the armadillo in flight and the slab on the floor, where two
- * threads divide the work within the body; the ratio is one thread's time over theirs. The processor time of
- * the busier thread counts: what two free cores would take but for waking each other.
- */
+ * `threads`: bodies of about 100,000 tetrahedra, the armadillo in flight and the slab on the floor. Two
+ * threads divide the work within the body; the ratio is one thread's time over theirs. The time of two
+ * threads is the processor time of the busier one: that of two free cores without the delay of waking each
+ * other. */
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>

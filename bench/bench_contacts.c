@@ -1,11 +1,12 @@
-/* Rigid boxes that meet each other, each a character of its own: what a touch costs, and how finding who may
- * touch grows with how many there are.
+/* Measures collision of rigid boxes, each in its own character: the cost of a contact, and how the time of
+ * the broad phase grows with the number of boxes.
  *
- * `apart`: boxes stand in a wide grid on the ground and touch nobody; the cost of meetings alone is that
- * beside the same boxes in a world where bodies do not meet (`alone`). `towers`: four on each other, four
- * touches between two. A tick of 1/60 s after half a second to settle, nothing asleep, one thread; the median
- * of many. `touches_a_second`: of those between boxes, on one processor. `slope` is the exponent of the cost
- * of a tick against the number of boxes, from the row before. */
+ * `apart`: boxes stand in a wide grid on the ground without contact. The cost of collision detection is
+ * the difference to the same boxes in a world in which bodies do not collide (`alone`). `towers`: stacks
+ * of four, with four contacts between two boxes. The time is the median of many ticks of 1/60 s after half
+ * a second, nothing asleep, on one thread. `touches_a_second` counts contacts between boxes on one
+ * processor. `slope` is the exponent of the time of a tick against the number of boxes, from the row
+ * before. */
 #include <math.h>
 #include <stdlib.h>
 

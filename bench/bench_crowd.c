@@ -1,16 +1,15 @@
 /* Crowds: many characters of one asset in one world, on one thread and on two.
  *
- * Armadillos of one metre, tetrahedra of 0.1 MPa, fly, which costs what wobbling does, or are dropped
- * onto the floor and wobble there, awake, from a hand's breadth and from a metre; lizards walk. A frame is
- * one control tick of 1/60 s. `busy_ms` is the processor time of the busier thread: what free cores take but
- * for waking each other; `wall_ms` is what this machine took, whatever else it did. Both are medians of the
- * second half of the frames. `times_one` is that of one thread over the row's, by busy time. All runs must
- * end in the same state.
+ * Armadillos of one metre, tetrahedra of 0.1 MPa, fly (the cost of free oscillation), or fall to the floor
+ * from 10 cm or from a metre and oscillate there awake. Lizards walk. A frame is one control tick of 1/60
+ * s. `busy_ms` is the processor time of the busier thread: that of free cores without the delay of waking
+ * each other. `wall_ms` is the elapsed time on this machine. Both are medians of the second half of the
+ * frames. `times_one` is the busy time of one thread over the row's. All runs must end in the same state.
  *
- * Rows of one armadillo with fixed substeps say what a substep costs with each set of instructions
- * (`ns_per_element`, in flight, from the difference that twice as many substeps make), and how fast it passes
- * over its tables and state (`gb_s`: each byte of them once a substep), beside what the caches and the memory
- * give a sum of lists (`triad`). */
+ * Rows of one armadillo with fixed substeps measure a substep with each set of instructions:
+ * `ns_per_element`, in flight, from the difference to twice as many substeps, and `gb_s`, the bandwidth if
+ * each byte of its tables and state is read once per substep. `triad` is the bandwidth of caches and
+ * memory for a sum of lists. */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
 #include <stdio.h>

@@ -1,14 +1,14 @@
-/* A crowd of 200 lizards that walk, before a camera that moves: all at full detail, and with detail levels
- * chosen (sbrun/detail.h). Each world takes the same ticks one after the other; `ms_tick` is the processor
- * time of a tick of one thread, on average. What is seen of each is compared with full detail in every tenth
- * tick, vertex by vertex as they are projected on a screen of 1080 lines, 60 degrees high: `rms_px` over all,
- * `worst_lizard_px` the root of the mean square of the worst one, `worst_px` of the worst vertex. Lizards
- * that have been away walk on with other feet: they are not compared, but counted (`returned`, on average).
- * `visits` is what the world takes a tick to cost; soft to away the lizards on such detail levels, on
- * average; `mb` what the world and its characters hold, on average, and `mb_most` at most, from their making
- * on. In the last cases the lizards stand closer and meet each other, and are compared with those of them at
- * full detail: of springs, which have one soft level, and of tetrahedra, which have three. `coarser` are
- * those of the soft ones that are on another than the finest. */
+/* Compares a crowd of 200 walking lizards before a moving camera at full detail with the same crowd with
+ * automatic detail levels (sbrun/detail.h). Both worlds take the same ticks one after the other. `ms_tick`
+ * is the mean processor time of a tick on one thread. Every tenth tick the visible vertices are compared
+ * with full detail, projected on a screen of 1080 lines and 60 degrees: `rms_px` over all,
+ * `worst_lizard_px` the largest root mean square of a lizard, `worst_px` the largest error of a vertex.
+ * Lizards that were off screen continue with another gait phase; they are not compared but counted
+ * (`returned`, mean). `visits` is the world's estimate of the cost of a tick. The columns from soft to
+ * away are mean numbers of lizards on those detail levels. `mb` is the mean memory of the world and its
+ * characters, `mb_most` the maximum, including their creation. In the last cases the lizards stand closer
+ * and collide; they are compared with lizards at full detail, made of springs (one soft level) or
+ * tetrahedra (three). `coarser` counts soft lizards that are not on the finest level. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

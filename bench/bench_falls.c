@@ -1,20 +1,20 @@
-/* What falls and comes to rest on something, beside Bullet: a ragdoll on the ground, a cloth on a ball.
+/* Compares falling bodies with Bullet: a ragdoll on the ground, and a cloth on a ball.
  *
- * `ragdoll`: twenty boxes and ball joints (measured_ragdoll.h), pushed over, five seconds; parts meet the
- * ground alone. `fall_us` and `lie_us` are a tick's (1/60 s) processor time in the first two seconds and in
- * the last: the least of the rounds of the mean over that time, nothing asleep. `apart_mm`: the farthest that
- * a joint's two ends were from each other; `beyond_deg`: by how much the worst limit of a joint was broken;
- * `deep_mm`: how deep the corner of a box was in the ground; `rest_mm_s`: the fastest middle of a part in the
- * last second. `coarse` is the same with rigid_coarse; `undamped` with joints that have neither damping nor
- * friction, as Bullet's have none.
+ * `ragdoll`: twenty boxes and ball joints (measured_ragdoll.h), pushed over, for five seconds. Parts
+ * collide only with the ground. `fall_us` and `lie_us` are the processor time of a tick (1/60 s), averaged
+ * over the first two seconds and over the last second; the minimum of the rounds. Nothing sleeps.
+ * `apart_mm`: largest separation of a joint's two ends. `beyond_deg`: largest violation of a joint limit.
+ * `deep_mm`: largest penetration of a box corner. `rest_mm_s`: largest speed of a part's centre in the
+ * last second. `coarse` uses rigid_coarse. `undamped` has joints without damping and friction, like
+ * Bullet's.
  *
- * `cloth`: 100 x 100 points 1 cm apart, 0.8 kg, springs of 200 N/m, dropped on a ball of 0.3 m, two seconds.
- * `fall_us` and `lie_us` as above, of the first and the last half second; `deep_mm`: how deep a point was in
- * the ball after a tick, `inside`: how many in the end were deeper than 1 mm; `stretch_pct`: how much longer
- * than at rest the springs are in the end, in the mean. Bullet's links all have the share 1, as they do
- * unasked, and what it calls the voxels of the ball's distances are 2 cm.
+ * `cloth`: 100 x 100 points 1 cm apart, 0.8 kg, springs of 200 N/m, dropped on a ball of 0.3 m, for two
+ * seconds. `fall_us` and `lie_us` are as above for the first and the last half second. `deep_mm`: largest
+ * penetration of a point after a tick. `inside`: number of points deeper than 1 mm at the end.
+ * `stretch_pct`: mean stretch of the springs at the end. Bullet's links have the stiffness factor 1, their
+ * default. The voxels of Bullet's distance field of the ball are 2 cm.
  *
- * Ends with a failure where ours comes apart or goes through. */
+ * Fails if our ragdoll separates or our bodies pass through each other. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
-/* The animation layer alone: microseconds of a control tick of 1/60 s of characters without soft bodies.
+/* Measures the animation layer alone: microseconds of a control tick of 1/60 s of characters without soft
+ * bodies.
  *
- * Each is converted from its model in examples/ and not built, so that nothing is simulated: what is left is
- * gait, inverse kinematics, chains, tails, head, and what a world does around them. It is driven for some
- * seconds, again and again, and every time does the very same: the benchmark fails where two runs end in
- * different states. Half a second at a time is timed; `least_us` is the mean of the least times of these over
- * all runs, `worst_us` that of the one that costs most, and `median_us` the median run's mean. `bench_gait
- * NAME...` measures some of them. */
+ * Each character is converted from its model in examples/ and not built, so nothing is simulated. The time
+ * includes gait, inverse kinematics, chains, tails, head, and the world's overhead. A character is driven
+ * for some seconds in several runs, which must end in the same state. Times are taken over half seconds.
+ * `least_us` is the mean over them of the minimum over the runs, `worst_us` the largest minimum,
+ * `median_us` the median run's mean. `bench_gait NAME...` measures only these characters. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,11 +1,12 @@
 /* Inverse kinematics: passes, microseconds and error of the solvers on a chain of ten links of 1 m.
  *
- * A thousand targets each: `reachable` evenly in the ball of 10 m about the root, `unreachable` from 10.5 m
- * to 20 m, `root` within 1 cm of the root, where the chain has to fold up. Every solve starts from the chain
- * bent by 0.2 rad at each joint. `passes` and `us` are means over the targets; `error` is in metres, for what
- * is out of reach beyond the nearest place there is. `missed` counts targets whose error is above the
- * tolerance (10 times that out of reach) after 400 passes. `limited` chains bend by up to 0.8 rad at a joint;
- * what is missed there is mostly out of the reach that is left. */
+ * Each case has a thousand targets: `reachable` uniformly in the ball of 10 m about the root,
+ * `unreachable` from 10.5 m to 20 m, `root` within 1 cm of the root, where the chain must fold up. Every
+ * solve starts from the chain bent by 0.2 rad at each joint. `passes` and `us` are means over the targets.
+ * `error` is in metres; for unreachable targets it is the distance beyond the nearest reachable point.
+ * `missed` counts targets whose error is above the tolerance (unreachable: 10 times the tolerance) after
+ * 400 passes. `limited` chains bend by up to 0.8 rad at a joint; most of their missed targets are out of
+ * their reach. */
 #include <math.h>
 #include <stdio.h>
 

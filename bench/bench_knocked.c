@@ -1,14 +1,14 @@
-/* A character of soft sections on bones that is knocked over: the example lizard, 22 sections of springs on
- * 22 simulated bodies, dropped limp from its stand and lying, nothing asleep, three seconds.
+/* Measures a falling character of soft sections on bones: the example lizard with 22 sections of springs
+ * on 22 rigid bodies. It drops limp from its stand and lies for the rest of three seconds. Nothing sleeps.
  *
- * `steps` is what rigid parts are asked for in a tick (`rigid_substeps`; 0: what the runtime takes by itself,
- * with bones that bear their flesh; 64: more than its softness asks for, so that none does, which is what
- * `bone_mm` and `flesh_mm` are measured against: root of the mean square of how far bodies and points are
- * from there, over the first third of a second, in which it strikes the ground). `tick_us` is a tick's
- * processor time, the least of the rounds of the mean over all; `walk_us` of the same character walking, for
- * comparison.
+ * `steps` is the requested number of rigid substeps per tick (`rigid_substeps`). 0: the runtime chooses,
+ * and bones carry the mass of their attached soft bodies. 64: more than the stiffness needs, so bones
+ * carry no such mass; this is the reference for `bone_mm` and `flesh_mm`. Both are root mean square
+ * distances of rigid bodies and of points from the reference, over the first third of a second, in which
+ * it hits the ground. `tick_us` is the mean processor time of a tick, the minimum of the rounds. `walk_us`
+ * is the same for the walking character.
  *
- * Ends with a failure where it goes elsewhere. */
+ * Fails if the character ends at another position. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-/* What the levels of a body are worth: how far each is off, and what it costs. Spot, of ../shared/data, as
- * lattices, springs and jiggle; without that folder our lizard's springs and jiggle. */
+/* Measures error and cost of the detail levels of a body: Spot of ../shared/data as lattices, springs and
+ * jiggle; without that folder our lizard's springs and jiggle. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
-/* How long a build is silent: the longest time between two calls of its progress callback, which is how long
- * it may take until it hears that it shall end. Of surfaces and characters in ../shared/data where that
- * folder is there, and of our lizard. */
+/* Measures the longest time between two calls of a build's progress callback, which is the longest time
+ * that a build takes to react to a cancel. Uses surfaces and characters in ../shared/data if that folder
+ * exists, and our lizard. */
 #include <stdio.h>
 #include <string.h>
 

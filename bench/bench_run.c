@@ -1,16 +1,16 @@
 /* Walking: microseconds of each part of a frame of 1/60 s, on one thread and on two.
  *
- * A character walks for some seconds, again and again, and every time does the very same: the benchmark fails
- * where two runs end in different states. So each frame has a least time over all runs, which is what it
- * costs on a quiet machine; `least_us` is the mean of these over the walk, `worst_us` that of the frame that
- * costs most. `median_us` is the median run's mean. With two threads, the time of a round of tasks is the
- * processor time of the busier thread: what two free cores would take but for waking each other.
+ * A character walks for some seconds in several runs, which must end in the same state. The time of a
+ * frame is the minimum of the runs, its cost on an idle machine. `least_us` is the mean of these over the
+ * walk, `worst_us` the largest, `median_us` the median run's mean. With two threads, the time of a round
+ * of tasks is the processor time of the busier thread: that of two free cores without the delay of waking
+ * each other.
  *
- * Parts: `frame` is what a game pays, `pose` (gait, inverse kinematics, tail, head) and `bodies` and `skin`
- * (positions and normals of all render meshes) together, with what lies between them. Of `bodies`, `substep`
- * is one substep of all bodies, from two more runs with once and twice as many substeps for each body as the
- * stiffest one needs; the automatic count, `substeps` at most, gives a softer body fewer. `health` (volumes,
- * strains, energies) is for measuring, and not part of a frame. */
+ * Parts: `frame` is the total cost for a game. It consists of `pose` (gait, inverse kinematics, tail,
+ * head), `bodies`, `skin` (positions and normals of all render meshes) and the work between them.
+ * `substep` is one substep of all bodies, measured by two more runs with once and twice as many substeps
+ * as the stiffest body needs. The automatic number, `substeps` at most, gives softer bodies fewer.
+ * `health` (volumes, strains, energies) is for diagnosis and not part of a frame. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,5 @@
-/* Saving into memory, in each form; what the verb `validate` does, which is to load with all checks, from
- * memory here, and then to apply the rules; and building the derived parts of a character. MB are 10^6 bytes
- * of the form that is written or read. */
+/* Measures saving to memory in each form, `validate` (load with all checks, then apply the rules), and
+ * building the derived parts of a character. MB are 10^6 bytes of the form that is written or read. */
 #include <stdio.h>
 
 #include "measured_assets.h"

@@ -1,22 +1,22 @@
-/* The paper's scene: a soft figure over a rigid skeleton that hangs by its hands from two blocks, and balls
- * thrown at it (examples/bones; Matulewicz and others, Figures 9 and 10 there). The figure has about 2750
- * tetrahedra and 1036 polygons, as the paper's armadillo had, of which two at once ran at 18 frames a second.
- * The balls are rigid bodies: what they push the figure with slows them down and throws them back.
+/* The scene of a paper: a soft figure on a rigid skeleton hangs by its hands from two blocks, and balls
+ * are thrown at it (examples/bones; Matulewicz and others, Figures 9 and 10 there). The figure has about
+ * 2750 tetrahedra and 1036 polygons, like the paper's armadillo; two of those ran at 18 frames a second.
+ * The balls are rigid bodies: the figure's reaction slows them down and throws them back.
  *
- * Four variants: the skeleton as it is, without its limits, with the masses of its bones evened out, and
- * flesh alone. Of each: the largest bend at an elbow, a knee or the neck against rest while six balls of 12
- * cm and 7 kg hit at 8 m/s (`bend_deg`); the largest angle by which a joint's limit was broken
- * (`beyond_deg`); how far the skin hangs from its rest shape before, in the mean (`sag_mm`), and how far it
- * was moved at most (`swing_mm`); the impulse that a ball gave, in the mean (`given_n_s`); what is left
- * eight seconds after the last ball: of the bends, which is the shape's error (`left_deg`), and of the skin's
- * way, in which the figure's swing about its hands counts too (`left_mm`); and the frames a second of one and
- * of two figures on one thread, balls hitting all the time.
+ * There are four variants: the complete skeleton, without limits, with equal bone masses, and the soft
+ * body alone. Columns while six balls of 12 cm and 7 kg hit at 8 m/s: the largest bend at an elbow, a knee
+ * or the neck from rest (`bend_deg`), the largest violation of a joint limit (`beyond_deg`), the mean sag
+ * of the skin before the first hit (`sag_mm`), its largest displacement (`swing_mm`), and the mean impulse
+ * of a ball (`given_n_s`). Columns eight seconds after the last ball: the remaining bend, which is the
+ * error of the shape (`left_deg`), and the remaining displacement of the skin, including the figure's
+ * swing about its hands (`left_mm`). Then the frames per second of one and of two figures on one thread
+ * while balls hit.
  *
- * `--draw FOLDER` writes four moments of a throw beside each other instead, as files that `sbfmt render`
- * draws: thrown-figure.sbf and thrown-flesh.sbf.
+ * `--draw FOLDER` writes four moments of a throw side by side instead, as files for `sbfmt render`:
+ * thrown-figure.sbf and thrown-flesh.sbf.
  *
- * Ends with a failure where the limits do not hold, make no difference, a ball misses, or the figure does not
- * find back. */
+ * Fails if limits are violated or have no effect, if a ball misses, or if the figure does not return to
+ * its shape. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
