@@ -49,9 +49,9 @@ def no_archive():
     """Whether the archive that apt is configured for does not answer for Debian's unstable suite."""
     if not shutil.which("apt-get"):
         return True
-    said = subprocess.run(["apt-get", "indextargets", "--format", "$(REPO_URI)", "Created-By: Packages"], capture_output=True,
+    printed = subprocess.run(["apt-get", "indextargets", "--format", "$(REPO_URI)", "Created-By: Packages"], capture_output=True,
                           text=True, check=False).stdout
-    for archive in said.split()[:1]:
+    for archive in printed.split()[:1]:
         try:
             with urllib.request.urlopen(archive.rstrip("/") + "/dists/unstable/Release", timeout=30):
                 return False
@@ -101,16 +101,16 @@ def read_tests(path):
     passed = failed = 0
     skips = []
     for test in ElementTree.parse(path).getroot().iter("testcase"):
-        said, status = test.findtext("system-out") or "", test.get("status")
-        told = [Skip(test.get("name"), *found) for found in SKIP.findall(said)]
-        if status in ("notrun", "disabled") and not told:
-            told = [Skip(test.get("name"), "all", last_line(said))]
-        cases = sum(map(int, CASES.findall(said)))
-        skips += told
+        printed, status = test.findtext("system-out") or "", test.get("status")
+        reported = [Skip(test.get("name"), *found) for found in SKIP.findall(printed)]
+        if status in ("notrun", "disabled") and not reported:
+            reported = [Skip(test.get("name"), "all", last_line(printed))]
+        cases = sum(map(int, CASES.findall(printed)))
+        skips += reported
         if status == "fail":
             failed += 1
         elif status == "run":
-            passed += max(cases - len(told), 0) if cases else 1
+            passed += max(cases - len(reported), 0) if cases else 1
     return passed, failed, skips
 
 
@@ -124,8 +124,8 @@ def read_stages(path, folder, tests):
         print(f"{outcome:8}{seconds:>6} s  {title.strip()}")
         if outcome == "skipped":
             with open(os.path.join(folder, name + ".log"), encoding="utf-8", errors="replace") as file:
-                said = file.read()
-            skips += [Skip("stage/" + name, *found) for found in SKIP.findall(said)] or [Skip("stage/" + name, "all", last_line(said))]
+                printed = file.read()
+            skips += [Skip("stage/" + name, *found) for found in SKIP.findall(printed)] or [Skip("stage/" + name, "all", last_line(printed))]
         elif outcome == "FAILED":
             failed += not tests.get(name, (0, 0))[1]
         else:

@@ -22,7 +22,7 @@ START_TEST(a_code_brings_its_status_and_severity)
 }
 END_TEST
 
-START_TEST(every_code_gives_what_its_table_says)
+START_TEST(every_code_has_the_values_of_its_table)
 {
   uint32_t count;
   const sbf_code_info *table = sbf_code_table(&count);
@@ -81,7 +81,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("diagnostic");
   TCase *c = tcase_create("diagnostic");
   tcase_add_test(c, a_code_brings_its_status_and_severity);
-  tcase_add_test(c, every_code_gives_what_its_table_says);
+  tcase_add_test(c, every_code_has_the_values_of_its_table);
   tcase_add_test(c, texts_are_cut_between_characters);
   tcase_add_test(c, a_reporter_counts_and_calls);
   suite_add_tcase(s, c);

@@ -93,7 +93,7 @@ START_TEST(an_empty_file_is_no_error)
 }
 END_TEST
 
-START_TEST(what_cannot_be_read_is_told)
+START_TEST(unreadable_files_are_reported)
 {
   sbfi_file_content content;
   sbf_diagnostic d;
@@ -295,7 +295,7 @@ START_TEST(a_failing_write_leaves_the_old_file_alone)
 }
 END_TEST
 
-START_TEST(what_cannot_be_written_is_told)
+START_TEST(failed_writes_are_reported)
 {
   sbf_diagnostic d;
   ck_assert_int_eq(sbfi_file_write(in_folder("absent/a"), "x", 1, NULL, &d), SBF_FAILED);
@@ -395,7 +395,7 @@ static Suite *suite(void) {
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_loop_test(c, a_file_is_mapped_and_read_alike, 0, 2);
   tcase_add_loop_test(c, an_empty_file_is_no_error, 0, 2);
-  tcase_add_loop_test(c, what_cannot_be_read_is_told, 0, 2);
+  tcase_add_loop_test(c, unreadable_files_are_reported, 0, 2);
   tcase_add_loop_test(c, a_pipe_is_read_to_its_end, 0, 2);
   tcase_add_test(c, reading_survives_every_failing_allocation);
   tcase_add_test(c, any_part_is_read_by_its_place);
@@ -406,7 +406,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_file_has_no_name_before_it_is_whole);
   tcase_add_test(c, the_old_file_stands_until_the_commit);
   tcase_add_test(c, a_failing_write_leaves_the_old_file_alone);
-  tcase_add_test(c, what_cannot_be_written_is_told);
+  tcase_add_test(c, failed_writes_are_reported);
   tcase_add_test(c, permissions_and_links_are_kept);
   tcase_add_test(c, a_link_to_nothing_stays);
   tcase_add_test(c, a_name_may_be_as_long_as_the_system_allows);

@@ -223,7 +223,7 @@ START_TEST(a_host_without_standard_descriptors_will_do)
 }
 END_TEST
 
-START_TEST(what_cannot_be_run_is_told)
+START_TEST(unsupported_files_are_reported)
 {
   const char *absent[] = {"/nowhere/to/be/found", NULL}, *folder[] = {"/", NULL};
   sbfi_process_result result;
@@ -279,7 +279,7 @@ static Suite *suite(void) {
   tcase_add_test(c, what_it_leaves_behind_does_not_hold_us);
   tcase_add_test(c, nothing_is_inherited);
   tcase_add_test(c, a_host_without_standard_descriptors_will_do);
-  tcase_add_test(c, what_cannot_be_run_is_told);
+  tcase_add_test(c, unsupported_files_are_reported);
   tcase_add_test(c, output_without_memory_is_an_error);
   suite_add_tcase(s, c);
   return s;

@@ -22,8 +22,8 @@ class Screen:
         self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writes), "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-nocursor", "-nolisten",
                                         "tcp", "-fbdir", folder], pass_fds=[writes], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(writes)
-        with os.fdopen(reads) as told:
-            self.number = told.readline().strip()
+        with os.fdopen(reads) as reported:
+            self.number = reported.readline().strip()
         self.link = f"{root}/tmp/.X11-unix/X{self.number}" if root and self.number else ""
 
     def __enter__(self):

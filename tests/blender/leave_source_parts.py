@@ -19,11 +19,11 @@ class SourceParts(fixtures.SceneTest):
                 make()
                 self.assertEqual(bpy.ops.export_scene.soft_body_format(filepath=os.path.join(KEPT, f"{name}.sbf")), {"FINISHED"})
 
-    def test_the_message_says_what_must_finish_it(self):
+    def test_the_message_names_the_command_that_finishes_it(self):
         fixtures.box("b")
         bpy.ops.sbfmt.check()
-        told = [one.message for one in bpy.context.scene.soft_body_format.findings]
-        self.assertTrue(any("the compiled library is not there for " in one for one in told))
+        reported = [one.message for one in bpy.context.scene.soft_body_format.findings]
+        self.assertTrue(any("the compiled library is not there for " in one for one in reported))
         self.assertIn("sbfmt build", self.refuse("out.sbfz"))
         self.assertIn("-o FILE.glb", self.refuse("out.glb"))
 

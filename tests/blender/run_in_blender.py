@@ -47,14 +47,14 @@ def main():
     parser.add_argument("--lizard", action="store_true", help="of the bundles the lizard's alone")
     parser.add_argument("--keep", default="", help="where to keep the pictures that it takes: docs/media")
     parser.add_argument("names", nargs="+")
-    asked = parser.parse_args()
-    if asked.shared and not os.path.isdir(bundles.SHARED):
+    arguments = parser.parse_args()
+    if arguments.shared and not os.path.isdir(bundles.SHARED):
         skip("there is no ../shared/data")
-    with Blender(asked.root, asked.library, asked.zip) as blender:
-        if asked.program:
-            make = bundles.make_shared if asked.shared else bundles.make_lizard if asked.lizard else bundles.make_examples
-            make(os.path.join(blender.tests, "bundles"), asked.program)
-        passed = pictures_taken(blender, asked.names[0], asked.keep) if asked.window else blender.run(asked.names)
+    with Blender(arguments.root, arguments.library, arguments.zip) as blender:
+        if arguments.program:
+            make = bundles.make_shared if arguments.shared else bundles.make_lizard if arguments.lizard else bundles.make_examples
+            make(os.path.join(blender.tests, "bundles"), arguments.program)
+        passed = pictures_taken(blender, arguments.names[0], arguments.keep) if arguments.window else blender.run(arguments.names)
     sys.exit(0 if passed else 1)
 
 

@@ -24,9 +24,9 @@ class Zip(fixtures.SceneTest):
 
     def test_it_is_a_valid_extension(self):
         if bpy.app.version >= (4, 2, 0):  # since which Blender has an opinion
-            said = subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "validate", ZIP],
+            printed = subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "validate", ZIP],
                                   capture_output=True, text=True, check=False)
-            self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+            self.assertEqual(printed.returncode, 0, printed.stdout + printed.stderr)
         with zipfile.ZipFile(ZIP) as archive:
             manifest = archive.read("soft_body_format/blender_manifest.toml").decode()
             has_library = any("/lib/" in name for name in archive.namelist())

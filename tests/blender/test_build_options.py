@@ -17,8 +17,8 @@ class Options(fixtures.SceneTest):
         made = fixtures.ball("limb", 0.5, segments=16, rings=16)
         for vertex in made.data.vertices:
             vertex.co.z = (vertex.co.z + 0.5) * 2
-        share = {vertex.index: min(max(vertex.co.z - 0.5, 0), 1) for vertex in made.data.vertices}
-        fixtures.bind(made, rig, {"upper": {i: 1 - s for i, s in share.items()}, "lower": dict(share)})
+        fraction = {vertex.index: min(max(vertex.co.z - 0.5, 0), 1) for vertex in made.data.vertices}
+        fixtures.bind(made, rig, {"upper": {i: 1 - s for i, s in fraction.items()}, "lower": dict(fraction)})
         return rig
 
     def test_sizes(self):

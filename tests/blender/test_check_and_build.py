@@ -33,7 +33,7 @@ class Check(fixtures.SceneTest):
         bpy.ops.sbfmt.select_finding(index=index)
         self.assertEqual(bpy.context.view_layer.objects.active.data.bones.active.name, "root")
 
-    def test_an_empty_scene_says_so(self):
+    def test_an_empty_scene_is_reported(self):
         self.assertIn("nothing to export", self.messages()[0].message)
 
 

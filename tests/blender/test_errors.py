@@ -68,7 +68,7 @@ class Target(fixtures.SceneTest):
         self.assertEqual(os.listdir(self.path("out")), [])
 
 
-    def test_a_fault_of_the_add_on_is_told_with_its_place(self):
+    def test_an_exception_of_the_add_on_is_reported_with_its_location(self):
         fixtures.box("b")
         with mock.patch.object(SceneWriter, "write", side_effect=KeyError("x")):
             self.assertRegex(self.refuse(build=False), r"fault of the add-on.*KeyError.*line \d+")
@@ -85,7 +85,7 @@ class Scene(fixtures.SceneTest):
         self.assertIn("no visible mesh with faces", self.refuse())
         self.assertIn("has no faces", findings_of()[0].message)
 
-    def test_a_mirrored_mesh_is_told_and_written(self):
+    def test_a_mirrored_mesh_is_reported_and_written(self):
         fixtures.box("twin").scale = (-1, 1, 1)
         found = [one for one in findings_of() if "negative" in one.message]
         self.assertEqual([(one.severity, one.object_name) for one in found], [("WARNING", "twin")])

@@ -209,12 +209,12 @@ class Bodies(fixtures.SceneTest):
         kinds = [one.kind for one in self.export(build=False).soft_bodies[0].levels[0].springs]
         self.assertEqual(kinds, ["structural", "shear"])
 
-    def test_what_cloth_has_and_the_format_has_not_is_told(self):
+    def test_cloth_settings_without_a_counterpart_are_reported(self):
         made = fixtures.sheet("cape", 4)
         self.cloth(made, compression_damping=40, use_sewing_springs=True)
         bpy.ops.sbfmt.check()
-        told = " ".join(one.message for one in self.scene.soft_body_format.findings)
-        self.assertRegex(told, "damping of compression differs.*sewing")
+        reported = " ".join(one.message for one in self.scene.soft_body_format.findings)
+        self.assertRegex(reported, "damping of compression differs.*sewing")
 
     def test_cloth_that_resists_pressing_otherwise_is_springs(self):
         made = fixtures.sheet("cape", 4)

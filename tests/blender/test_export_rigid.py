@@ -176,9 +176,9 @@ class Surroundings(fixtures.SceneTest):
         self.assertEqual((found.kind, found.falloff), ("drag", 1.5))
         self.assertAlmostEqual(found.strength, 3 * 20 * 0.001**0.5 / (0.02 * 25), places=4)
 
-    def test_what_of_a_field_is_left_out_is_told(self):
+    def test_omitted_settings_of_a_field_are_reported(self):
         fixtures.box("b")
-        for kind, settings, said in (("FORCE", {"noise": 2, "shape": "LINE"}, "noise; the shape Line"),
+        for kind, settings, expected_text in (("FORCE", {"noise": 2, "shape": "LINE"}, "noise; the shape Line"),
                                      ("WIND", {"use_max_distance": True, "z_direction": "POSITIVE"}, "one side alone; the shape Plane"),
                                      ("FORCE", {"use_min_distance": True, "falloff_type": "TUBE"}, "minimum distance; falloff as a tube"),
                                      ("DRAG", {"linear_drag": 1}, "square of the speed"), ("VORTEX", {}, "its growth with distance"),
@@ -188,6 +188,6 @@ class Surroundings(fixtures.SceneTest):
             for name, value in settings.items():
                 setattr(made.field, name, value)
             bpy.ops.sbfmt.check()
-            told = [one.message for one in self.scene.soft_body_format.findings if one.object_name == made.name]
-            self.assertIn(said, " ".join(told)) if said else self.assertEqual(told, [])
+            reported = [one.message for one in self.scene.soft_body_format.findings if one.object_name == made.name]
+            self.assertIn(expected_text, " ".join(reported)) if expected_text else self.assertEqual(reported, [])
             bpy.data.objects.remove(made)

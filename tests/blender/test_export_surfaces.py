@@ -6,7 +6,7 @@ from soft_body_format.findings import Findings
 from soft_body_format.to_document import Options, SceneWriter
 
 
-def told(**options):
+def reported(**options):
     """{object's name: (severity, message)}."""
     found = Findings()
     SceneWriter(bpy.context, Options(textures="EMBED", **options), found).write()
@@ -64,21 +64,21 @@ class Surfaces(fixtures.SceneTest):
         self.assertAlmostEqual(max(found["word"].mesh.positions[1::3]), 0.1, places=5)
         low, high = self.bounds(found["Mball"])[:2]
         self.assertTrue(low < 9.5 and high > 11.5, (low, high))
-        self.assertEqual(told()["Mball.001"][0], "INFO")
+        self.assertEqual(reported()["Mball.001"][0], "INFO")
 
-    def test_a_curve_without_a_surface_and_curves_unevaluated_are_told(self):
+    def test_curves_without_a_surface_and_unevaluated_curves_are_reported(self):
         fixtures.box("b")
         tube("way", bevel=0)
         tube("hose")
-        self.assertEqual({name: severity for name, (severity, _) in told().items()}, {"way": "INFO"})
-        found = told(apply_modifiers=False)
+        self.assertEqual({name: severity for name, (severity, _) in reported().items()}, {"way": "INFO"})
+        found = reported(apply_modifiers=False)
         self.assertEqual({name: severity for name, (severity, _) in found.items()}, {"way": "WARNING", "hose": "WARNING"})
         self.assertIn("Convert", found["hose"][1])
 
-    def test_what_can_be_no_mesh_is_told(self):
+    def test_objects_without_a_mesh_are_reported(self):
         fixtures.box("b")
         fixtures.link(bpy.data.objects.new("smoke", bpy.data.volumes.new("smoke")))
-        self.assertEqual(told()["smoke"][0], "WARNING")
+        self.assertEqual(reported()["smoke"][0], "WARNING")
 
 
 class Instances(fixtures.SceneTest):
@@ -114,13 +114,13 @@ class Instances(fixtures.SceneTest):
         names = [asset.find("materials", slot.material).name for slot in record.material_slots]
         counts = {name: list(record.polygon_materials).count(index) for index, name in enumerate(names)}
         self.assertEqual(counts, {"brown": 6, "green": 48})
-        self.assertEqual(told(), {})
+        self.assertEqual(reported(), {})
         self.assertEqual([one.name for one in tree.modifiers], ["scatter"])
         self.assertEqual([one.name for one in bpy.data.node_groups], ["scatter"])
 
-    def test_other_instances_are_told(self):
+    def test_other_instances_are_reported(self):
         leaf, tree = fixtures.box("leaf"), fixtures.box("tree")
         leaf.parent, tree.instance_type = tree, "VERTS"
-        severity, message = told()["tree"]
+        severity, message = reported()["tree"]
         self.assertEqual(severity, "WARNING")
         self.assertIn("8 instances", message)

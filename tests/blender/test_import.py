@@ -55,7 +55,7 @@ class RoundTrip(fixtures.RoundTripTest):
         self.assertEqual(after.bones, before.bones)
         self.assertEqual(after.find("soft_bodies", "body.Pelvis"), before.find("soft_bodies", "body.Pelvis"))
 
-    def test_what_was_taken_away_is_gone(self):
+    def test_removed_parts_are_absent(self):
         self.import_(self.bundle("lizard.sbf"))
         bpy.data.objects.remove(bpy.data.objects["Tail5"])
         after = self.export("again.sbf", build=False)

@@ -22,9 +22,9 @@ class Shapes(fixtures.SceneTest):
 
     def test_a_cone_is_cut_by_ranges(self):
         rim = self.rim({"swing": (0, 1.0), "swing_y": (-0.2, 0.5)})
-        most = {sign: max(sign * math.atan2(-z, x) for x, y, z in rim if abs(y) < 0.05) for sign in (1, -1)}
-        self.assertAlmostEqual(most[1], 0.5, delta=1e-3)
-        self.assertAlmostEqual(most[-1], 0.2, delta=1e-3)
+        maximum = {sign: max(sign * math.atan2(-z, x) for x, y, z in rim if abs(y) < 0.05) for sign in (1, -1)}
+        self.assertAlmostEqual(maximum[1], 0.5, delta=1e-3)
+        self.assertAlmostEqual(maximum[-1], 0.2, delta=1e-3)
 
     def test_a_range_without_rest_stays_where_it_is(self):
         rim = self.rim({"swing_y": (0.5, 1.0), "swing_z": (-0.1, 0.1), "swing": (0, 0.3)})

@@ -217,7 +217,7 @@ class Comings(PreviewTest):
         self.scene.frame_set(frame + 4)
         self.assertEqual(session.frame, frame + 4)
 
-    def test_what_cannot_be_exported_says_so(self):
+    def test_unsupported_exports_are_reported(self):
         with self.assertRaisesRegex(RuntimeError, "nothing to export"):
             bpy.ops.sbfmt.preview_start()
         self.assertFalse(bpy.ops.sbfmt.preview_stop.poll())
@@ -254,7 +254,7 @@ class Walks(PreviewTest):
         self.scene.frame_set(1)
         self.assertLess(float(numpy.linalg.norm(session.ground_position()[0])), 0.05)
 
-    def test_without_a_curve_it_says_so_and_stands(self):
+    def test_without_a_curve_it_stands_and_reports_it(self):
         self.load("lizard.sbf")
         self.settings.drive = "CURVE"
         session = self.start()
@@ -280,7 +280,7 @@ class Walks(PreviewTest):
 
 
 class Paths(fixtures.SceneTest):
-    def test_a_path_goes_on_where_it_is_closed(self):
+    def test_a_closed_path_continues(self):
         square = walk_path.WalkPath([(0, 0), (1, 0), (1, 1), (0, 1)], True)
         self.assertAlmostEqual(square.length, 4)
         self.assert_near(square.at(4.5), (0.5, 0))

@@ -72,7 +72,7 @@ class ProposedGait(fixtures.SceneTest):
         self.assertEqual(len(gait.followers), 2)
         self.assertEqual(len(self.export(build=False).gaits[0].legs), 2)
 
-    def test_what_has_no_legs_is_told_and_stays(self):
+    def test_a_rig_without_legs_is_reported_and_unchanged(self):
         self.assertFalse(bpy.ops.sbfmt.propose_gait.poll())
         rig = fixtures.armature("post", [("post", None, (0, 0, 0), (0, 0, 1), 0)])
         fixtures.hang(fixtures.box("block", (0.2, 0.2, 1), (0, 0, 0.5)), rig, "post")
@@ -81,7 +81,7 @@ class ProposedGait(fixtures.SceneTest):
         self.assertIn("no legs are found", str(raised.exception))
         self.assertFalse(self.scene.soft_body_format.gait.use)
 
-    def test_whichever_way_it_looks_and_wherever_its_feet_are(self):
+    def test_any_facing_direction_and_ground_height(self):
         characters.quadruped()
         forget_gait(self.scene)
         bpy.ops.sbfmt.propose_gait()
@@ -129,8 +129,8 @@ class ProposedGait(fixtures.SceneTest):
         rig.data.bones["shin.L"].soft_body_format.hangs_on = "foot.L"  # a circle
         rig.data.bones["foot.R"].soft_body_format.hangs_on = "gone"
         bpy.ops.sbfmt.check()
-        told = [one.bone_name for one in self.scene.soft_body_format.findings if "under Hangs on" in one.message]
-        self.assertEqual(told, ["shin.L", "foot.L", "foot.R"])
+        reported = [one.bone_name for one in self.scene.soft_body_format.findings if "under Hangs on" in one.message]
+        self.assertEqual(reported, ["shin.L", "foot.L", "foot.R"])
 
     def test_bones_are_enough(self):
         characters.biped()
@@ -149,7 +149,7 @@ class ProposedGait(fixtures.SceneTest):
         self.assertEqual((settings.ahead, settings.ground), ("X", 0.25))
         self.assertFalse(any(bone.soft_body_format.hangs_on for bone in rig.data.bones))
 
-    def test_feet_off_the_ground_are_told_and_mended(self):
+    def test_feet_off_the_ground_are_reported_and_repaired(self):
         characters.biped()
         place(Matrix.Translation((0, 0, 0.5)))
         bpy.ops.sbfmt.check()
@@ -166,7 +166,7 @@ class ProposedGait(fixtures.SceneTest):
         made = next(one for one in bpy.context.scene.objects if one.type == "ARMATURE" and one.name != "biped")
         self.assert_near(made.matrix_world @ made.data.bones["head"].head_local, head, 1e-5)
 
-    def test_it_walks_where_it_looks_in_the_preview(self):
+    def test_it_walks_forward_in_the_preview(self):
         stork()
         place(Matrix.Translation((0.5, 0, -0.75)) @ Matrix.Rotation(math.radians(90), 4, "Z"))
         bpy.ops.sbfmt.propose_gait()

@@ -69,7 +69,7 @@ class Mends(fixtures.SceneTest):
         self.assertAlmostEqual(joint.twist_min, -0.25)
         self.assertAlmostEqual(joint.twist_max, 0.5)
 
-    def test_what_lies_in_the_file_is_mended_there(self):
+    def test_faults_in_the_file_are_repaired_there(self):
         rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])
         made = fixtures.ball("belly")
         fixtures.hang(made, rig, "hip")
@@ -79,8 +79,8 @@ class Mends(fixtures.SceneTest):
             pin.group, pin.armature, pin.bone = "g", rig, "hip"
         self.mend("PIN_REPEATED")
         self.assertTrue(self.scene.soft_body_format.mends_files)
-        told = [one.message for one in self.scene.soft_body_format.findings if one.code == "PIN_REPEATED"]
-        self.assertTrue(told and all(one.startswith("repaired in the file") for one in told), told)
+        reported = [one.message for one in self.scene.soft_body_format.findings if one.code == "PIN_REPEATED"]
+        self.assertTrue(reported and all(one.startswith("repaired in the file") for one in reported), reported)
         self.assertEqual(sum(len(pins.points) for pins in self.export(build=False).soft_bodies[0].pins), 3)
         self.assertEqual(bpy.ops.sbfmt.build(), {"FINISHED"})
 

@@ -112,10 +112,10 @@ def main():
     parser.add_argument("--library", action="append", default=[])
     parser.add_argument("--program", required=True)
     parser.add_argument("case", choices=("source_parts", "walkthrough", "lizart"))
-    asked = parser.parse_args()
-    with Blender(asked.root, asked.library) as blender:
+    arguments = parser.parse_args()
+    with Blender(arguments.root, arguments.library) as blender:
         try:
-            globals()[asked.case](blender, asked.program)
+            globals()[arguments.case](blender, arguments.program)
         except Fault as fault:
             print(fault)
             sys.exit(1)

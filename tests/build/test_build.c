@@ -163,7 +163,7 @@ START_TEST(the_hash_is_of_what_was_read)
 }
 END_TEST
 
-START_TEST(settings_are_heeded)
+START_TEST(settings_are_applied)
 {
   add_cube(asset);
   sbf_build_options options = {.without_flexion = true,
@@ -426,7 +426,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_cube_in_full);
   tcase_add_test(c, building_twice_changes_nothing);
   tcase_add_test(c, the_hash_is_of_what_was_read);
-  tcase_add_test(c, settings_are_heeded);
+  tcase_add_test(c, settings_are_applied);
   tcase_add_test(c, sheets_and_free_bodies);
   tcase_add_test(c, authored_parts_stay);
   tcase_add_test(c, references_to_derived_parts_are_found_again);

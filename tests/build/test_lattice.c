@@ -45,7 +45,7 @@ static void stuff(made *m, const sbf_polygon_mesh *mesh, double cell) {
   check(m);
 }
 
-START_TEST(a_cube_of_whole_cells_is_met_exactly)
+START_TEST(a_cube_of_whole_cells_is_reproduced_exactly)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 2, 0.6f, (sbf_vec3){0.1f, 2, -3});
   for (int n = 2; n < 7; n++) {
@@ -70,7 +70,7 @@ static sbf_polygon_mesh make_ball(uint32_t n, float radius) {
 }
 
 /* The volume's error goes with the square of the cell; 0.25 h^2/r^2 is what curvature alone would cost. */
-START_TEST(a_ball_is_met_within_the_square_of_the_cell)
+START_TEST(a_ball_is_approximated_within_the_square_of_the_cell)
 {
   sbf_polygon_mesh ball = make_ball(24, 0.5f);
   sbf_surface_measures surface;
@@ -85,7 +85,7 @@ START_TEST(a_ball_is_met_within_the_square_of_the_cell)
 }
 END_TEST
 
-START_TEST(a_cube_askew_is_met_within_the_square_of_the_cell)
+START_TEST(a_tilted_cube_is_approximated_within_the_square_of_the_cell)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 3, 1, (sbf_vec3){0, 0, 0});
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)cube.positions.at;
@@ -103,7 +103,7 @@ START_TEST(a_cube_askew_is_met_within_the_square_of_the_cell)
 }
 END_TEST
 
-START_TEST(the_count_asked_for)
+START_TEST(the_requested_count)
 {
   sbf_polygon_mesh ball = make_ball(8, 3);
   static const uint32_t wanted[] = {300, 2000, 40000};
@@ -214,10 +214,10 @@ int main(void) {
   Suite *s = suite_create("lattice");
   TCase *c = tcase_create("lattice");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, a_cube_of_whole_cells_is_met_exactly);
-  tcase_add_test(c, a_ball_is_met_within_the_square_of_the_cell);
-  tcase_add_test(c, a_cube_askew_is_met_within_the_square_of_the_cell);
-  tcase_add_test(c, the_count_asked_for);
+  tcase_add_test(c, a_cube_of_whole_cells_is_reproduced_exactly);
+  tcase_add_test(c, a_ball_is_approximated_within_the_square_of_the_cell);
+  tcase_add_test(c, a_tilted_cube_is_approximated_within_the_square_of_the_cell);
+  tcase_add_test(c, the_requested_count);
   tcase_add_test(c, nothing_inside_makes_nothing);
   tcase_add_loop_test(c, real_surfaces, 0, (int)(sizeof real / sizeof *real));
   tcase_add_test(c, it_can_be_cancelled);

@@ -22,7 +22,7 @@ static void teardown(void) {
 
 /* ---- Points ---- */
 
-START_TEST(a_line_is_told_from_a_plane)
+START_TEST(lines_and_planes_are_distinguished)
 {
   const sbf_vec3 at[] = {{1, 0, 0}, {0, 0, 0}, {4, 0, 0}, {3, 0, 0.5f}};
   const uint32_t list[] = {0, 1, 2, 3};
@@ -168,7 +168,7 @@ int main(void) {
   Suite *s = suite_create("lattice_hold");
   TCase *c = tcase_create("lattice_hold");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, a_line_is_told_from_a_plane);
+  tcase_add_test(c, lines_and_planes_are_distinguished);
   tcase_add_test(c, each_piece_is_held_at_three_points);
   tcase_add_test(c, what_others_took_is_left_to_them);
   tcase_add_test(c, what_is_too_small_is_left);

@@ -255,7 +255,7 @@ START_TEST(sheets_become_cloth)
 }
 END_TEST
 
-START_TEST(what_goes_wrong_is_said)
+START_TEST(faults_are_reported)
 {
   sbf_soft_body *body = add_cube(2, false);
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)body->surface.positions.at;
@@ -405,7 +405,7 @@ int main(void) {
   tcase_add_test(c, a_stray_vertex);
   tcase_add_test(c, a_lattice_that_misses_a_tip_is_refined);
   tcase_add_test(c, sheets_become_cloth);
-  tcase_add_test(c, what_goes_wrong_is_said);
+  tcase_add_test(c, faults_are_reported);
   tcase_add_loop_test(c, real_surfaces, 0, (int)(sizeof real / sizeof *real));
   tcase_add_test(c, cancelled_or_without_memory_it_leaves_nothing);
   suite_add_tcase(s, c);

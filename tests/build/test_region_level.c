@@ -55,7 +55,7 @@ END_TEST
 /* Stretched by a thousandth along an axis, or sheared: the energy that matter of E and nu = 0 would hold,
  * within what the flat regions along the sides of a slender bar make of it: 16 % more along it, less across.
  */
-START_TEST(small_strains_take_what_the_modulus_says)
+START_TEST(small_strains_have_the_stress_of_the_modulus)
 {
   const sbf_soft_body *body = &built->soft_bodies.at[0];
   const sbf_shape_regions *regions = level->regions;
@@ -95,7 +95,7 @@ int main(void) {
   TCase *c = tcase_create("region_level");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, each_point_has_a_region_of_its_neighbours);
-  tcase_add_loop_test(c, small_strains_take_what_the_modulus_says, 0, 4);
+  tcase_add_loop_test(c, small_strains_have_the_stress_of_the_modulus, 0, 4);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

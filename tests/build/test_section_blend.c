@@ -57,7 +57,7 @@ START_TEST(a_gentle_slope_stays)
 END_TEST
 
 /* Steeper weights than the skin's own may stretch nothing and yet turn over what its own do not. */
-START_TEST(flips_are_judged_by_the_weights_as_authored)
+START_TEST(flips_are_detected_with_the_authored_weights)
 {
   ck_assert_double_eq(smoothed(0.22f, 0.22f), 0);
   ck_assert_double_gt(smoothed(0.22f, 0.6f), 0.05);
@@ -252,7 +252,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("section_blend");
   tcase_add_test(c, a_step_becomes_a_slope);
   tcase_add_test(c, a_gentle_slope_stays);
-  tcase_add_test(c, flips_are_judged_by_the_weights_as_authored);
+  tcase_add_test(c, flips_are_detected_with_the_authored_weights);
   tcase_add_test(c, a_step_on_a_fine_skin_becomes_a_slope);
   tcase_add_test(c, the_order_of_polygons_changes_nothing);
   tcase_add_test(c, fixed_points_keep_their_weights_as_long_as_others_can_give_way);

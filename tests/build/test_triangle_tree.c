@@ -69,7 +69,7 @@ START_TEST(a_bound_is_kept)
 }
 END_TEST
 
-START_TEST(rays_meet_the_first)
+START_TEST(rays_hit_the_first_shape)
 {
   sbf_polygon_mesh mesh = shape_cube(asset, 3, 2, (sbf_vec3){0, 0, 0});
   sbfi_triangle_tree tree;
@@ -138,7 +138,7 @@ static Suite *suite(void) {
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, nearest_as_by_trying_all);
   tcase_add_test(c, a_bound_is_kept);
-  tcase_add_test(c, rays_meet_the_first);
+  tcase_add_test(c, rays_hit_the_first_shape);
   tcase_add_test(c, closest_places);
   tcase_add_test(c, empty_mesh);
   suite_add_tcase(s, c);

@@ -109,7 +109,7 @@ END_TEST
 /* Held at four corners of its end: along itself a coarse one gives by 30 % otherwise. */
 static const sbf_vec3 corners[] = {{0, -0.2f, -0.2f}, {0, 0.2f, -0.2f}, {0, -0.2f, 0.2f}, {0, 0.2f, 0.2f}};
 
-START_TEST(the_finest_that_is_off_is_kept_and_says_so)
+START_TEST(the_finest_level_is_kept_with_a_warning)
 {
   sbf_asset *built = build_bar(corners, 4, 400, 1);
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
@@ -140,7 +140,7 @@ int main(void) {
   tcase_add_test(c, a_body_held_at_a_point_is_warned_of);
   tcase_add_test(c, the_finest_is_kept_without_an_error);
   tcase_add_test(c, a_coarser_one_is_left_out);
-  tcase_add_test(c, the_finest_that_is_off_is_kept_and_says_so);
+  tcase_add_test(c, the_finest_level_is_kept_with_a_warning);
   tcase_add_test(c, a_coarser_one_that_is_off_is_left_out);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -23,7 +23,7 @@ static chart_track swings(double height, double period_s) {
 static const chart_signal along_y = {.there = true, .along = 1};
 static const sbf_vec3 rest[2] = {{1, 0, 0}, {-1, 0, 0}};
 
-START_TEST(each_axis_tells_what_differs)
+START_TEST(each_axis_shows_the_difference)
 {
   chart_track a = swings(0.12, 0.61), b = swings(0.1, 0.6);
   double errors[CHART_AXIS_COUNT];
@@ -51,7 +51,7 @@ START_TEST(the_same_is_not_off)
 }
 END_TEST
 
-START_TEST(rest_is_judged_by_the_last_tick_alone)
+START_TEST(rest_is_detected_from_the_last_tick_alone)
 {
   chart_track a = swings(0.1, 0.6), b = swings(0.1, 0.6);
   double errors[CHART_AXIS_COUNT];
@@ -79,10 +79,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("errors");
   TCase *c = tcase_create("errors");
-  tcase_add_test(c, each_axis_tells_what_differs);
+  tcase_add_test(c, each_axis_shows_the_difference);
   tcase_add_test(c, the_same_is_not_off);
   tcase_add_test(c, a_pixel_is_so_many_millimetres);
-  tcase_add_test(c, rest_is_judged_by_the_last_tick_alone);
+  tcase_add_test(c, rest_is_detected_from_the_last_tick_alone);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -54,7 +54,7 @@ START_TEST(a_folder_is_made_with_all_or_not)
 }
 END_TEST
 
-START_TEST(what_cannot_be_a_folder_is_told_before)
+START_TEST(invalid_output_folders_are_reported_first)
 {
   char path[512];
   sbf_diagnostic error;
@@ -74,7 +74,7 @@ int main(void) {
   Suite *suite = suite_create("out_folder");
   TCase *c = tcase_create("out_folder");
   tcase_add_test(c, a_folder_is_made_with_all_or_not);
-  tcase_add_test(c, what_cannot_be_a_folder_is_told_before);
+  tcase_add_test(c, invalid_output_folders_are_reported_first);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

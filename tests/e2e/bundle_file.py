@@ -44,15 +44,15 @@ def apply(a, p):
     return tuple(a[r][0] * p[0] + a[r][1] * p[1] + a[r][2] * p[2] + a[r][3] for r in range(3))
 
 
-def slerp(a, b, share):
+def slerp(a, b, fraction):
     dot = sum(x * y for x, y in zip(a, b))
     if dot < 0:
         b, dot = tuple(-x for x in b), -dot
     if dot > 0.9999:
-        mixed = tuple(x + (y - x) * share for x, y in zip(a, b))
+        mixed = tuple(x + (y - x) * fraction for x, y in zip(a, b))
     else:
         angle = math.acos(dot)
-        mixed = tuple((math.sin((1 - share) * angle) * x + math.sin(share * angle) * y) / math.sin(angle)
+        mixed = tuple((math.sin((1 - fraction) * angle) * x + math.sin(fraction * angle) * y) / math.sin(angle)
                       for x, y in zip(a, b))
     length = math.sqrt(sum(x * x for x in mixed))
     return tuple(x / length for x in mixed)
@@ -64,9 +64,9 @@ def keyed(times, values, time, turning=False):
     if after == 0 or after == len(times):
         return values[min(after, len(times) - 1)]
     begin, end = times[after - 1], times[after]
-    share = (time - begin) / (end - begin)
+    fraction = (time - begin) / (end - begin)
     a, b = values[after - 1], values[after]
-    return slerp(a, b, share) if turning else tuple(x + (y - x) * share for x, y in zip(a, b))
+    return slerp(a, b, fraction) if turning else tuple(x + (y - x) * fraction for x, y in zip(a, b))
 
 
 class Bundle:

@@ -60,8 +60,8 @@ def lines_of(element, depth):
     for child in element:
         if is_read(element, child):
             children += lines_of(child, depth + 1)
-    said = [k for k, _ in attributes if k != "target"]
-    if not children and (element.tag in WRAPPERS or (element.tag in SILENT and not said)):
+    stated = [k for k, _ in attributes if k != "target"]
+    if not children and (element.tag in WRAPPERS or (element.tag in SILENT and not stated)):
         return []
     start = f"{indent}<{element.tag}" + "".join(f' {k}="{escaped(v, True)}"' for k, v in attributes)
     return [start + ">", *children, f"{indent}</{element.tag}>"] if children else [start + "/>"]

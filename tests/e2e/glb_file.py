@@ -28,9 +28,9 @@ class Glb:
         width, kind = WIDTHS[a["type"]], FORMATS[a["componentType"]]
         start = view.get("byteOffset", 0) + a.get("byteOffset", 0)
         stride = view.get("byteStride", width * struct.calcsize(kind))
-        most = {"B": 255, "H": 65535}.get(kind, 1) if a.get("normalized") else 1
+        maximum = {"B": 255, "H": 65535}.get(kind, 1) if a.get("normalized") else 1
         found = [struct.unpack_from(f"<{width}{kind}", self.binary, start + i * stride) for i in range(a["count"])]
-        return [tuple(n / most for n in row) for row in found] if most > 1 else found
+        return [tuple(n / maximum for n in row) for row in found] if maximum > 1 else found
 
     def primitives(self):
         """(mesh node, primitive) in the order of the file's meshes."""

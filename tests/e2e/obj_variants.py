@@ -163,13 +163,13 @@ def size_of(obj):
     return max(max(p[k] for p in obj.points) - min(p[k] for p in obj.points) for k in range(3))
 
 
-def jiggled(obj, share=1 / 3, by=0.01, seed=1):
+def jiggled(obj, fraction=1 / 3, by=0.01, seed=1):
     """That share of the points moved by so much of the longest side."""
     new, chance, size = obj.copy(), random.Random(seed), size_of(obj)
     for i, p in enumerate(obj.points):
         way = [chance.gauss(0, 1) for _ in range(3)]
         length = sum(x * x for x in way) ** 0.5
-        if chance.random() < share:
+        if chance.random() < fraction:
             new.points[i] = tuple(x + by * size * d / length for x, d in zip(p, way))
     new.normals, new.uvs = [], []
     new.faces = [(o, m, [(p, None, None) for p, _, _ in c]) for o, m, c in obj.faces]
@@ -203,7 +203,7 @@ def subdivided(obj):
     return new
 
 
-def simplified(obj, share=0.5):
+def simplified(obj, fraction=0.5):
     """Shortest sides collapse to their middles until that share of the points is left."""
     tri = triangulated(obj)
     count = len({p for _, _, c in tri.faces for p, _, _ in c})
@@ -222,7 +222,7 @@ def simplified(obj, share=0.5):
     left, grown = count, set()
     for a, b in sides:
         a, b = top(a), top(b)
-        if left <= share * count:
+        if left <= fraction * count:
             break
         if a == b or a in grown and b in grown:
             continue

@@ -53,7 +53,7 @@ class Attachments(ProgramTest):
                   self.path("out.sbf"), "--attach", "Tail2=Tail1", "--no-build")
         self.assertEqual(self.json_of("info", self.path("out.sbf"))["attachments"], 1)
 
-    def test_what_is_not_there_is_said(self):
+    def test_missing_files_are_reported(self):
         for wish, words in (("flesh=heart", "'heart': no object"), ("heart=inside", "'heart'"),
                             ("flesh=flesh", "to itself")):
             self.assertIn(words, self.fails(1, "convert", self.cubes, "-o", self.path("out.sbf"), "--attach", wish))

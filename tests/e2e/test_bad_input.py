@@ -99,19 +99,19 @@ class BundlesThatAreNotValid(ProgramTest):
         self.fails(BAD_INPUT, "convert", self.path("o.ele"), self.path("cube.obj"), "--out-dir", self.path("out"))
         self.assertEqual(sorted(os.listdir(self.path("out"))), [".sbfmt", "cube.sbf", "summary.tsv"])
 
-    def test_what_can_be_mended_is_mended_and_told(self):
+    def test_repairable_faults_are_repaired_and_reported(self):
         """Repeated tetrahedra, a leaf drawn from both sides, an image path that leads out of the folder."""
         flat = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 4 3 2 1\n"
         for name, content in (("r.node", self.OVERLAP[0][1]), ("r.ele", b"2 4 0\n1 1 2 3 4\n2 1 2 3 4\n"),
                               ("flat.obj", flat), ("lwo.obj", b"mtllib lwo.mtl\nusemtl m\n" + CUBE),
                               ("lwo.mtl", b"newmtl m\nmap_Kd /../LWO\n")):
             write_bytes(self.path(name), content)
-        for name, told in (("r.ele", "with the same four points"), ("flat.obj", ""), ("lwo.obj", "IMPORT_IMAGE")):
+        for name, reported in (("r.ele", "with the same four points"), ("flat.obj", ""), ("lwo.obj", "IMPORT_IMAGE")):
             with self.subTest(name):
                 out = self.path(name + ".sbf")
                 result = call("convert", self.path(name), "-o", out)
                 self.assertEqual(result.status, 0, result.err)
-                self.assertIn(told, result.err)
+                self.assertIn(reported, result.err)
                 self.good("validate", out)
 
 
@@ -174,7 +174,7 @@ class Calls(ProgramTest):
                 self.assertIn("[IO_CANNOT_WRITE]", result.err)
                 self.assertEqual(result.out, "")
 
-    def test_a_folder_for_the_output_is_told_before_the_work(self):
+    def test_a_folder_as_output_is_reported_before_the_work(self):
         mesh = write_bytes(self.path("cube.obj"), CUBE)
         for arguments in (("convert", mesh), ("build", self.file), ("pack", self.file), ("export", self.file)):
             with self.subTest(arguments):
@@ -185,8 +185,8 @@ class Calls(ProgramTest):
 
     def test_options_that_would_do_nothing_are_refused(self):
         for option in (("--rig", self.file), ("--unit", "2"), ("--gait", "fly"), ("--soft", "*"), ("--weights", "match")):
-            said = self.fails(FAILED, "convert", self.file, *option, "-o", self.path("x.sbf"))
-            self.assertIn(f"is a bundle, which {option[0]} does not change", said)
+            printed = self.fails(FAILED, "convert", self.file, *option, "-o", self.path("x.sbf"))
+            self.assertIn(f"is a bundle, which {option[0]} does not change", printed)
         self.assertIn("--of selects the content of a point cache", self.fails(FAILED, "run", self.file, "--of", "skin"))
         self.assertIn("unexpected input '0.2'", self.fails(FAILED, "run", self.file, "--drive", "0.5", "0.2"))
         self.assert_empty_folder()
@@ -205,15 +205,15 @@ class Calls(ProgramTest):
             os.mkfifo(pipe)
             for arguments in ((pipe,), (mesh, "--rig", pipe), (mesh, "--motion", pipe)):
                 with self.subTest(name, arguments=arguments[1:-1]):
-                    said = self.fails(FAILED, "convert", *arguments, "-o", self.path("x.sbf"), timeout=20)
-                    self.assertIn(f"{pipe}: this is a pipe or a device: save its content to a file", said)
+                    printed = self.fails(FAILED, "convert", *arguments, "-o", self.path("x.sbf"), timeout=20)
+                    self.assertIn(f"{pipe}: this is a pipe or a device: save its content to a file", printed)
             os.remove(pipe)
         self.assert_empty_folder(but=["cube.obj"])
 
     def test_inputs_and_outputs_that_cannot_be_meant(self):
         self.assertIn("standard input is not supported", self.fails(FAILED, "info", "-"))
-        said = self.fails(FAILED, "unpack", self.file, "-o", self.path("a.sbf"), "-o", self.path("b.sbf"))
-        self.assertIn("-o is given twice", said)
+        printed = self.fails(FAILED, "unpack", self.file, "-o", self.path("a.sbf"), "-o", self.path("b.sbf"))
+        self.assertIn("-o is given twice", printed)
         self.assert_empty_folder()
 
     def test_calls_that_are_wrong(self):
@@ -272,7 +272,7 @@ class Calls(ProgramTest):
         self.assertIn("make it first", self.fails(FAILED, "convert", mesh, "--out-dir", self.path("no/such")))
         self.assertIn("name a folder", self.fails(FAILED, "convert", mesh, "--out-dir", mesh))
 
-    def test_that_there_is_no_place_is_said_before_the_work(self):
+    def test_a_missing_location_is_reported_before_the_work(self):
         mesh = write_bytes(self.path("cube.obj"), CUBE)
         result = call("convert", mesh, "-o", self.path("no/such.sbf"))
         self.assertEqual((result.status, result.out), (FAILED, ""))
@@ -422,21 +422,21 @@ class HalfACharacter(ProgramTest):
         joint = "JOINT %s\n{\nOFFSET 0 %d 0\nCHANNELS 3 Zrotation Yrotation Xrotation\nEnd Site\n{\nOFFSET 0 %d 0\n}\n}\n"
         source = write_bytes(self.path("walk.bvh"), (text % (joint % ("Head", 28, 6) + joint % ("Foot", -36, -2),
                                                              "0 0 0 0 0 0")).encode())
-        said = self.good("convert", source, "-o", self.path("x.sbf")).err
-        self.assertIn("UNIT_LOOKS_WRONG", said)
-        self.assertAlmostEqual(float(re.search(r"--unit (\S+), which makes them", said).group(1)), 0.0254, delta=0.003)
+        printed = self.good("convert", source, "-o", self.path("x.sbf")).err
+        self.assertIn("UNIT_LOOKS_WRONG", printed)
+        self.assertAlmostEqual(float(re.search(r"--unit (\S+), which makes them", printed).group(1)), 0.0254, delta=0.003)
         self.assertNotIn("UNIT_LOOKS_WRONG",
                          self.good("convert", source, "--unit", "0.0254", "-o", self.path("y.sbf")).err)
 
-    def test_what_is_too_far_from_the_origin_for_its_digits_is_told(self):
+    def test_points_too_far_from_the_origin_are_reported(self):
         """A scan in the coordinates of a map: at 500 km a float has steps of 3 to 6 cm."""
-        for far, told in ((0, False), (1000, False), (500000, True)):
+        for far, reported in ((0, False), (1000, False), (500000, True)):
             moved = CUBE.replace(b"v 0 ", b"v %d " % far).replace(b"v 1 ", b"v %d " % (far + 1))
             source = write_bytes(self.path("scan.obj"), moved)
             for arguments in ((), ("--unit", "1")):
-                said = self.good("convert", source, "-o", self.path("x.sbf"), "--no-build", *arguments).err
-                self.assertEqual(told, "[IMPORT_FAR]" in said, said)
-        self.assertRegex(said, r"object '.*' lies 5e\+05 m from the origin, .* of 0\.06 m, 6 % of its size of 1 m: move it")
+                printed = self.good("convert", source, "-o", self.path("x.sbf"), "--no-build", *arguments).err
+                self.assertEqual(reported, "[IMPORT_FAR]" in printed, printed)
+        self.assertRegex(printed, r"object '.*' lies 5e\+05 m from the origin, .* of 0\.06 m, 6 % of its size of 1 m: move it")
 
     def test_a_missing_material_library_is_a_warning(self):
         source = write_bytes(self.path("x.obj"), b"mtllib gone.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 1 0\n"

@@ -262,7 +262,7 @@ class SharedFiles(ProgramTest):
                     self.assert_placed(every, expected, size_drawn)
 
     @needs_node
-    def test_three_draws_every_vertex_where_the_formula_says(self):
+    def test_three_draws_every_vertex_by_the_formula(self):
         """As saved, skinned or not: the formula that the cases above hold conversions to is that of a viewer."""
         for path in shared_files():
             with self.subTest(file=os.path.relpath(path, shared(".."))):

@@ -21,19 +21,19 @@ class Budget(ProgramTest):
     def converted(self, name, *options, source=CALF):
         out = self.path(name + ".sbf")
         result = self.good("convert", source, "-o", out, *options)
-        said = SAID.search(result.err)
-        return out, said and [float(number) if number else None for number in said.groups()], result.err
+        printed = SAID.search(result.err)
+        return out, printed and [float(number) if number else None for number in printed.groups()], result.err
 
     def test_it_takes_the_cheapest_that_is_near_the_finest(self):
-        usual, said, _ = self.converted("usual", "--budget", "none")
-        self.assertIsNone(said)
+        usual, printed, _ = self.converted("usual", "--budget", "none")
+        self.assertIsNone(printed)
         self.assertEqual(elements_of(usual), {None})
-        made, (elements, share, visits, most), err = self.converted("made")
+        made, (elements, fraction, visits, maximum), err = self.converted("made")
         self.assertEqual(elements_of(made), {str(int(elements))})
         self.assertIn(elements, (40, 80, 160))
-        self.assertLessEqual(share, 1)
-        self.assertLessEqual(visits, most)
-        self.assertAlmostEqual(most, 1e5 / 6, delta=1)
+        self.assertLessEqual(fraction, 1)
+        self.assertLessEqual(visits, maximum)
+        self.assertAlmostEqual(maximum, 1e5 / 6, delta=1)
         self.assertIn("SOFTNESS_PROPOSED", err)
         springs = [sum(s["levels"][0]["springs"] for s in self.json_of("info", path)["sections"]) for path in (made, usual)]
         self.assertLess(springs[0], springs[1])
@@ -64,13 +64,13 @@ class Budget(ProgramTest):
     def test_a_bundle_keeps_its_sections(self):
         for options in (("--budget", "none"), ()):
             made = self.converted("bundle", *options)[0]
-            again, said, _ = self.converted("again", source=made)
-            self.assertIsNone(said)
+            again, printed, _ = self.converted("again", source=made)
+            self.assertIsNone(printed)
             self.assertEqual(read_bytes(again), read_bytes(made))
-        _, said, _ = self.converted("asked", "--budget", "100", source=made)
-        self.assertTrue(said)
+        _, printed, _ = self.converted("asked", "--budget", "100", source=made)
+        self.assertTrue(printed)
 
-    def test_what_was_asked_for_stays_soft(self):
+    def test_requested_sections_stay_soft(self):
         made, _, err = self.converted("asked", "--soft", "tail3", "--budget", "10")
         self.assertEqual({s["bone"] for s in self.json_of("info", made)["sections"]}, {"tail3"})
         self.assertIn("the requested parts cost more", err)
@@ -83,8 +83,8 @@ class Budget(ProgramTest):
 
     def test_less_leaves_the_smallest_parts_out_on_both_sides(self):
         _, (_, _, visits, _), _ = self.converted("some", "--budget", "100")
-        made, (_, _, less, most), err = self.converted("less", "--budget", f"{0.85 * visits * 0.006:.3g}")
-        self.assertLessEqual(less, most)
+        made, (_, _, less, maximum), err = self.converted("less", "--budget", f"{0.85 * visits * 0.006:.3g}")
+        self.assertLessEqual(less, maximum)
         self.assertRegex(err, r"rigid to keep the budget: \d+ of the smallest parts \(")
         root = ElementTree.parse(made).getroot()
         names = {b.get("id"): b.get("name") for b in root.iter("bone")}
@@ -94,15 +94,15 @@ class Budget(ProgramTest):
         self.assertEqual({s["bone"] for s in self.json_of("info", made)["sections"]}, soft)
 
     def test_a_quarter_is_for_soft_parts_whatever_the_skin_takes(self):
-        made, (_, _, visits, most), err = self.converted("quarter", "--budget", "40")
-        self.assertLessEqual(visits, most)
-        self.assertGreater(0.006 * most, 50, "the skin alone takes more than the budget")
+        made, (_, _, visits, maximum), err = self.converted("quarter", "--budget", "40")
+        self.assertLessEqual(visits, maximum)
+        self.assertGreater(0.006 * maximum, 50, "the skin alone takes more than the budget")
         self.assertIn("soft parts have a quarter of the budget", err)
         self.assertTrue(self.json_of("info", made)["sections"])
 
-    def test_skin_and_gait_that_take_more_are_told(self):
-        made, (_, _, visits, most), err = self.converted("skin", "--budget", "10")
-        self.assertGreater(visits, most)
+    def test_excess_cost_of_skin_and_gait_is_reported(self):
+        made, (_, _, visits, maximum), err = self.converted("skin", "--budget", "10")
+        self.assertGreater(visits, maximum)
         self.assertIn("skin and gait alone cost more", err)
         self.assertEqual(self.json_of("info", made)["sections"], [])
 
@@ -119,8 +119,8 @@ class Budget(ProgramTest):
         with open(cube, "w", encoding="utf-8") as file:
             file.writelines(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))
             file.write("f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
-        with_it, said, _ = self.converted("with", "--budget", "100", source=cube)
-        self.assertIsNone(said)
+        with_it, printed, _ = self.converted("with", "--budget", "100", source=cube)
+        self.assertIsNone(printed)
         self.assertEqual(read_bytes(with_it), read_bytes(self.converted("without", "--budget", "none", source=cube)[0]))
 
 

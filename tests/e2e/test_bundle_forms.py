@@ -122,7 +122,7 @@ class Forms(ProgramTest):
                     "bytes"):
             self.assertIs(type(report[key]), int, key)
 
-    def test_validate_says_the_same_of_both_forms(self):
+    def test_validate_agrees_for_both_forms(self):
         for path in (self.xml, self.packed, self.stored):
             report = self.json_of("validate", path)
             self.assertEqual((report["valid"], report["errors"]), (True, 0), report["messages"])

@@ -67,10 +67,10 @@ class Charts(ProgramTest):
         rows = rows_of(self.out, "spring")
         for substeps in (1, 2, 4):
             turn = 5 / 60 / substeps  # w h
-            for scheme, share in (("symplectic", turn ** 2 / 24), ("position_based", turn ** 2 / 3),
+            for scheme, fraction in (("symplectic", turn ** 2 / 24), ("position_based", turn ** 2 / 3),
                                   ("explicit_euler", turn ** 2 / 3), ("heun", turn ** 2 / 6)):
                 off = float(pick(rows, scheme, substeps)["period"])
-                self.assertAlmostEqual(off, share, delta=0.03 * share + 3e-6, msg=f"{scheme}, {substeps}")
+                self.assertAlmostEqual(off, fraction, delta=0.03 * fraction + 3e-6, msg=f"{scheme}, {substeps}")
             # What position-based steps lose of their height in three periods: the ratio is w h / 2.
             kept = math.exp(-turn / 2 * 2 * math.pi * 3.4)
             off = float(pick(rows, "position_based", substeps)["amplitude"])
@@ -78,14 +78,14 @@ class Charts(ProgramTest):
         self.assertGreater(float(pick(rows, "explicit_euler", 1)["energy"]), 1)
         self.assertLess(float(pick(rows, "symplectic", 1)["energy"]), 0.05)
 
-    def test_the_report_says_the_same_as_the_table(self):
+    def test_the_report_agrees_with_the_table(self):
         report = json.loads(self.chart("--no-svg", "--case", "pendulum", "--case", "pendulum", "--format", "json").out)
         self.assertEqual([case["name"] for case in report["cases"]], ["pendulum"])
         rows = [row for row in rows_of(self.out, "pendulum") if row["scheme"] != "reference"]
         self.assertEqual(len(report["cases"][0]["rows"]), len(rows))
-        for said, row in zip(report["cases"][0]["rows"], rows):
-            self.assertEqual(said["scheme"], row["scheme"])
-            self.assertAlmostEqual(said["errors"]["path_m"], float(row["path_m"]), delta=1e-5 * float(row["path_m"]))
+        for reported_row, row in zip(report["cases"][0]["rows"], rows):
+            self.assertEqual(reported_row["scheme"], row["scheme"])
+            self.assertAlmostEqual(reported_row["errors"]["path_m"], float(row["path_m"]), delta=1e-5 * float(row["path_m"]))
         self.assertLess(report["cases"][0]["references"][0]["errors"]["path_m"], 1e-7)
 
     @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
@@ -213,7 +213,7 @@ class Charts(ProgramTest):
         result = call("chart", "--map", "--cells", "12", "--no-svg", "--format", "json", "-o", self.out)
         self.assertEqual(result.status, 0, result.err)
         self.assertEqual(sorted(os.listdir(self.out)), sorted(f"map-{name}.csv" for name in MAPS + BODY_MAPS))
-        said = {(one["map"], one["scheme"]): one for one in json.loads(result.out)["maps"]}
+        reported_row = {(one["map"], one["scheme"]): one for one in json.loads(result.out)["maps"]}
         for name in MAPS + BODY_MAPS:
             rows = rows_of(self.out, f"map-{name}")
             self.assertEqual(len(rows), 6 * 12 * 6 if name in MAPS else 6 * 6 * 3)
@@ -221,19 +221,19 @@ class Charts(ProgramTest):
             for scheme in {row["scheme"] for row in rows}:
                 for outcome in ("sound", "biased", "dead", "refused"):
                     count = sum(row["scheme"] == scheme and row["outcome"] == outcome for row in rows)
-                    self.assertEqual(said[name, scheme][outcome], count)
+                    self.assertEqual(reported_row[name, scheme][outcome], count)
             for row in rows:
                 self.assertEqual(bool(row["why"]), row["outcome"] != "sound")
                 self.assertEqual(bool(row["mass_ratio"]), name in BODY_MAPS)
                 if name == "stretch" or not row["stable_below"] or row["outcome"] == "refused":
                     continue
-                share = float(row["omega_h"]) / float(row["stable_below"])
-                if share < 0.8:
+                fraction = float(row["omega_h"]) / float(row["stable_below"])
+                if fraction < 0.8:
                     self.assertIn(row["outcome"], ("sound", "biased"), row)
-                if share > 1.3 and (name in MAPS or row["scheme"] != "explicit_euler"):
+                if fraction > 1.3 and (name in MAPS or row["scheme"] != "explicit_euler"):
                     self.assertEqual(row["outcome"], "dead", row)
-        said = {row["scheme"]: row["outcome"] for row in rows_of(self.out, "map-mass-regions")}
-        self.assertEqual({scheme for scheme, outcome in said.items() if outcome == "refused"},
+        reported_row = {row["scheme"]: row["outcome"] for row in rows_of(self.out, "map-mass-regions")}
+        self.assertEqual({scheme for scheme, outcome in reported_row.items() if outcome == "refused"},
                          {"position_based", "block_descent", "relaxation"})
 
     def test_maps_are_jobs_as_well(self):

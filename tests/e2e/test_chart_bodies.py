@@ -43,7 +43,7 @@ class Bodies(ProgramTest):
             self.assertLess(float(automatic["period"]), 1e-3)
         self.assertIn("refused", {row["outcome"] for row in rows if row["model"] == "regions"})
 
-    def test_what_hangs_comes_to_rest_where_every_sound_scheme_says(self):
+    def test_a_hanging_body_rests_where_all_stable_schemes_agree(self):
         for row in self.rows("hung"):
             if row["scheme"] in ("symplectic", "automatic") and row["outcome"] == "sound":
                 self.assertLess(float(row["shape"]), 1e-3, (row["model"], row["substeps"]))

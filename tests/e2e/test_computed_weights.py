@@ -129,8 +129,8 @@ class ComputedWeights(ProgramTest):
         return {i: weight for i, (weight, _) in weights_by_vertex(out).items()}, done.err
 
     def test_each_bone_holds_its_part(self):
-        weights, told = self.weights()
-        self.assertIn("computed from 3 bones: 2 of 3 shells move with one bone each", told)
+        weights, reported = self.weights()
+        self.assertIn("computed from 3 bones: 2 of 3 shells move with one bone each", reported)
         self.assertEqual(len(weights), 372 + 72)
         for i in range(372):
             x = 0.1 * (i // 12)
@@ -148,8 +148,8 @@ class ComputedWeights(ProgramTest):
             with self.subTest(name):
                 self.rig = self.path(name)
                 write(self.rig, *options)
-                weights, told = self.weights()
-                self.assertIn("computed from 3 bones", told)
+                weights, reported = self.weights()
+                self.assertIn("computed from 3 bones", reported)
                 self.assertEqual(Bundle(self.path("arm.sbf")).bone_names(), [bone for bone, _ in BONES])
                 for i, expected in from_bvh.items():  # whose last bone states its length
                     self.assertEqual(strongest(weights[i]), strongest(expected))
@@ -181,8 +181,8 @@ class ComputedWeights(ProgramTest):
         self.rig = self.path("one.gltf")
         with open(self.rig, "w", encoding="utf-8") as stream:
             stream.write('{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"Empty"}]}')
-        said = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"))
-        self.assertIn("IMPORT_EMPTY", said)
+        printed = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"))
+        self.assertIn("IMPORT_EMPTY", printed)
 
     def test_arms_that_hang_get_the_bones_of_arms_stretched_out(self):
         """The rig's limbs are turned to lie in the mesh; its clips still say what they said."""
@@ -279,9 +279,9 @@ class ComputedWeights(ProgramTest):
         with open(self.path("frog.obj"), "w", encoding="ascii") as stream:
             stream.writelines(f"v {x} {y} {z}\n" for x, y, z in points)
             stream.writelines("f {} {} {}\n".format(*(i + 1 for i in t)) for t in triangles)
-        said = self.fails(1, "convert", self.path("frog.obj"), "--rig", self.path("bones.glb"), "--verbose", "-o", self.path("frog.sbf"))
+        printed = self.fails(1, "convert", self.path("frog.obj"), "--rig", self.path("bones.glb"), "--verbose", "-o", self.path("frog.sbf"))
         for tip, foot in feet.items():
-            self.assertIn(f"bone '{foot}' is at the end of '{tip}'", said)
+            self.assertIn(f"bone '{foot}' is at the end of '{tip}'", printed)
 
     def test_objects_of_which_half_are_named_as_bones(self):
         """A body and a head are parts of a skin and no sections, where other objects are named as no bone."""
@@ -290,8 +290,8 @@ class ComputedWeights(ProgramTest):
         with open(self.obj, "w", encoding="ascii") as stream:
             stream.write(text.replace("o arm", "o upper") + "o hand\nf 372 371 370\no rest\nf 372 371 369\no more\nf 372 370 369\n"
                          .replace("o rest", "o hat"))
-        weights, told = self.weights()
-        self.assertNotIn("from the names of objects", told)
+        weights, reported = self.weights()
+        self.assertNotIn("from the names of objects", reported)
         self.assertGreater(weights[360].get("hand", 0), 0.9)
 
     def test_shells_follow_the_bones_they_are_given_to(self):
@@ -315,10 +315,10 @@ class ComputedWeights(ProgramTest):
     def test_a_mesh_of_one_triangle(self):
         with open(self.obj, "w", encoding="ascii") as stream:
             stream.write("v 0 0 0\nv 3 0 0\nv 0 0.1 0\nf 1 2 3\n")
-        said = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"), "--weights", "compute")
-        self.assertIn("outside are bones on the surface of the mesh, which encloses no space", said)
-        said = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"), "--weights", "named")
-        self.assertIn("RIG_MISFIT", said)
+        printed = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"), "--weights", "compute")
+        self.assertIn("outside are bones on the surface of the mesh, which encloses no space", printed)
+        printed = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"), "--weights", "named")
+        self.assertIn("RIG_MISFIT", printed)
         self.assertFalse(os.path.exists(self.path("no.sbf")))
 
 

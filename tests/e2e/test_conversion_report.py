@@ -66,7 +66,7 @@ class Reports(ProgramTest):
         self.assertIn("gait", {p["what"] for p in r["proposed"]})
         self.assertEqual(len(r["quality"]["bodies"]), len(r["bundle"]["sections"]))
 
-    def test_what_a_call_says_of_unit_and_axes(self):
+    def test_unit_and_axes_from_the_call(self):
         path = write_bytes(self.path("a.ply"), scene_files.ply())
         r = self.report(path, "--unit", "0.01", "--up", "z")
         source, = r["sources"]
@@ -119,13 +119,13 @@ class Reports(ProgramTest):
                          self.path("out.json"), environment=NO_EGL)
         self.assertEqual(call.err.count("[LATTICE_THIN] at"), 1)
         self.assertIn("9 more findings of this kind, which --verbose prints [LATTICE_THIN]", call.err)
-        said = json.loads(read_text(self.path("out.json")))
-        thin = [m for kind in ("mended", "guessed", "lost", "notes") for m in said[kind] if m["code"] == "LATTICE_THIN"]
+        printed = json.loads(read_text(self.path("out.json")))
+        thin = [m for kind in ("mended", "guessed", "lost", "notes") for m in printed[kind] if m["code"] == "LATTICE_THIN"]
         self.assertEqual(len(thin), 10)
         self.assertIn("a smaller cell", thin[0]["message"])
 
     @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
-    def test_what_was_mended_and_lost(self):
+    def test_repaired_and_lost_parts(self):
         r = self.report("--no-build", shared("lizard", "lizart.glb"))
         self.assertEqual({m["code"] for m in r["mended"]}, {"IMPORT_INSIDE_OUT", "IMPORT_POINTS_JOINED"})
         r = self.report("--no-build", shared("armadillo", "armadillo_1k.obj"))
@@ -162,7 +162,7 @@ class Reports(ProgramTest):
         page = Page(read_text(self.path("out.html")))
         self.assertEqual((page.open, page.scripts), ([], 0))
 
-    def test_without_egl_the_report_says_so_and_goes_on(self):
+    def test_without_egl_the_run_continues_and_reports_it(self):
         r = self.report(LIZARD + ".glb")
         self.assertEqual(r["pictures"], [])
         self.assertIn("EGL", r["drawing_failed"])

@@ -89,15 +89,15 @@ class Derived(ProgramTest):
         self.assertEqual(settings, sorted(settings))
         self.assertEqual(self.json_of("info", out)["springs"]["internal"], 0)
 
-    def test_what_is_kept_as_authored_is_told(self):
+    def test_parts_kept_as_authored_are_reported(self):
         nodes = write_bytes(self.path("one.node"), b"4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n")
         write_bytes(self.path("one.ele"), b"1 4 0\n0 0 1 2 3\n")
-        told = self.good("convert", nodes, "-o", self.path("one.sbf"), "--material", "rubber").out
-        self.assertIn("kept 1 body as authored: 1 tetrahedron\n", told)
-        self.assertNotIn("built", told)
-        self.assertNotIn("springs", told)
+        reported = self.good("convert", nodes, "-o", self.path("one.sbf"), "--material", "rubber").out
+        self.assertIn("kept 1 body as authored: 1 tetrahedron\n", reported)
+        self.assertNotIn("built", reported)
+        self.assertNotIn("springs", reported)
 
-    def test_bodies_are_made_of_what_is_said(self):
+    def test_bodies_have_the_given_material(self):
         call("build", self.file, "--material", "flesh", "--material", "Head=muscle", "-o", self.path("firm.sbf"))
         text = read_text(self.path("firm.sbf"))
         self.assertEqual(text.count('young_modulus="30000"'), 1)
@@ -123,7 +123,7 @@ class Derived(ProgramTest):
         self.assertEqual(read_text(self.path("fox.sbf")).count('model="jiggle"'), 21)
         call("validate", self.path("fox.sbf"))
 
-    def test_lattices_are_made_of_the_size_asked_for(self):
+    def test_lattices_have_the_requested_size(self):
         out, again = self.path("lattice.sbf"), self.path("again.sbf")
         options = ("--springs", "tetrahedra", "--elements", "300", "--no-calibration")  # which takes a second a body
         self.good("build", self.file, "-o", out, *options)

@@ -21,9 +21,9 @@ WAVES = {"snake": ("slither", 19), "koi": ("swim", 9), "dragon": ("swim", 18)}
 class Characters(ProgramTest):
     def bundle(self, name):
         path = self.path(name + ".sbf")
-        said = self.good("convert", os.path.join(ROOT, "examples", name, name + ".glb"), "-o", path).err
-        self.assertNotIn("warning", said)
-        self.assertNotIn("error", said)
+        printed = self.good("convert", os.path.join(ROOT, "examples", name, name + ".glb"), "-o", path).err
+        self.assertNotIn("warning", printed)
+        self.assertNotIn("error", printed)
         report = self.json_of("validate", path)
         self.assertEqual((report["errors"], report["warnings"]), (0, 0))
         return path
@@ -78,7 +78,7 @@ class Characters(ProgramTest):
             self.assertEqual((gait.get("kind"), [names[n] for n in bones]),
                              (kind, ["head", *(f"body{i + 1}" for i in range(count - 1))]))
             self.json_of("run", path, "--seconds", "4", "--drive", gait.get("walk_speed") + ",0.3", "--pose", out)
-            poses, most = read_poses(out)[0], 0
+            poses, maximum = read_poses(out)[0], 0
             spacing = [math.dist(poses[0][names[a]][:3], poses[0][names[b]][:3]) for a, b in zip(bones, bones[1:])]
             aside = []  # of the last bone against the first, across the body
             for frame in range(60, 240, 5):
@@ -87,11 +87,11 @@ class Characters(ProgramTest):
                 for i in range(1, count):
                     self.assertAlmostEqual(math.dist(links[i - 1][:3], links[i][:3]), spacing[i - 1], places=3)
                     if i > 1:  # the head's bone points ahead and those of the body back
-                        most = max(most, math.acos(min(1, sum(a * b for a, b in zip(ways[i - 1], ways[i])))))
+                        maximum = max(maximum, math.acos(min(1, sum(a * b for a, b in zip(ways[i - 1], ways[i])))))
                 aside.append(rotated((*(-n for n in links[1][3:6]), links[1][6]),
                                      [a - b for a, b in zip(links[-1][:3], links[1][:3])])[0])
-            self.assertGreater(most, 0.08, name)
-            self.assertLess(most, 0.8, name)
+            self.assertGreater(maximum, 0.08, name)
+            self.assertLess(maximum, 0.8, name)
             self.assertLess(min(aside), -0.01, name)
             self.assertGreater(max(aside), 0.01, name)
 
@@ -110,7 +110,7 @@ class Characters(ProgramTest):
         subprocess.run([sys.executable, "-B", maker, PROGRAM, path], capture_output=True, check=True)
         report = self.json_of("validate", path)
         self.assertEqual((report["errors"], report["warnings"]), (0, 0))
-        for speed, least in ((0.6, 0.5), (0.9, 0.5)):
+        for speed, minimum in ((0.6, 0.5), (0.9, 0.5)):
             report = self.json_of("run", path, "--seconds", "6", "--drive", f"{speed},0", "--pose", out)
             self.assertTrue(report["valid"])
             self.assertEqual(report["skate_ratio"], 0)
@@ -118,7 +118,7 @@ class Characters(ProgramTest):
             # how far the left one is ahead of the right one, of hands and of feet, along +Z
             hands, feet = ([poses[i][f"{bone}.L"][2] - poses[i][f"{bone}.R"][2] for i in range(150, 360)]
                            for bone in ("hand", "foot"))
-            self.assertGreater(max(hands) - min(hands), least)
+            self.assertGreater(max(hands) - min(hands), minimum)
             self.assertLess(statistics.correlation(hands, feet), -0.7)
 
     def test_the_yeti_leans_back_as_it_sets_off_and_dives_as_it_stops(self):

@@ -143,8 +143,8 @@ class Forms(ProgramTest):
             for name in ("b.node", "b.ele"):
                 if os.path.exists(self.path(name)):
                     os.remove(self.path(name))
-            said = self.good("export", self.path("a.sbf"), "-o", self.path("b." + ending)).err
-            self.assertIn("rigid bodies: 2", said)
+            printed = self.good("export", self.path("a.sbf"), "-o", self.path("b." + ending)).err
+            self.assertIn("rigid bodies: 2", printed)
             self.good("convert", self.path("b." + read), "-o", self.path("c.sbf"))
             after = self.json_of("info", self.path("c.sbf"))
             for key in ("tetrahedra", "bounds"):

@@ -83,16 +83,16 @@ class Motion(ProgramTest):
         places = {}
         for i, point in enumerate(rest):
             places.setdefault(tuple(round(c, 4) for c in point), []).append(i)
-        most = least = 0
+        maximum = minimum = 0
         for mesh in meshes:
             for before, after in zip(mesh["rest"], mesh["now"]):
                 key = tuple(round(c, 4) for c in before)
                 near = places.get(key) or [i for i, p in enumerate(rest) if math.dist(p, before) < 2e-4]
                 self.assertTrue(near, f"{mesh['name']}: no point at {before}")
-                most = max(most, min(math.dist(now[i], after) for i in near))
-                least = max(least, min(math.dist(rest[i], after) for i in near))
-        self.assertLess(most, NEAR_M)
-        self.assertGreater(least, 0.01, "nothing moved")
+                maximum = max(maximum, min(math.dist(now[i], after) for i in near))
+                minimum = max(minimum, min(math.dist(rest[i], after) for i in near))
+        self.assertLess(maximum, NEAR_M)
+        self.assertGreater(minimum, 0.01, "nothing moved")
 
     @play_files.needs_node
     def test_the_validator_finds_nothing_to_warn_of(self):
@@ -144,7 +144,7 @@ class Motion(ProgramTest):
         self.assertAlmostEqual(widths[2], widths[0], delta=1e-3 * widths[0])
         self.assertAlmostEqual(widths[3], widths[1], delta=NEAR_M)
 
-    def test_normals_of_targets_turn_with_the_flesh(self):
+    def test_normals_of_targets_turn_with_the_soft_body(self):
         """A normal keeps its angle to the faces around it that share it: triangles here, so the sums of their area vectors tell."""
         glb, sums, rows_of, turned = Glb(self.moved("pup")[0]), ({}, {}), [], 0
         for node, primitive in glb.primitives():
@@ -214,7 +214,7 @@ class Everything(ProgramTest):
         self.assertEqual([one["name"] for one in self.glb.json["animations"]],
                          [one.get("name") for one in root.iter("clip")])
 
-    def test_what_is_left_out_is_said(self):
+    def test_omissions_are_reported(self):
         for what in ("soft bodies: ", "pulleys: 1", "breaking forces of joints: 1", "gaits: ", "EXPORT_LEFT_OUT"):
             self.assertIn(what, self.left_out)
 

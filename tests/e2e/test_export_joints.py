@@ -183,12 +183,12 @@ class Joints(ProgramTest):
 
     def check_usd_masses(self, source, prims):
         for body in source.find("rigid_bodies"):
-            told = prims["/asset/rigid/" + body.get("id")].values
-            self.close(told["xformOp:translate"], numbers(body.get("center")), 1e-6, "place")
-            self.assertAlmostEqual(told["physics:mass"], float(body.get("mass")), delta=1e-6)
-            self.close(told["physics:diagonalInertia"], numbers(body.get("inertia")), 1e-8, "inertia")
-            self.close(told["physics:centerOfMass"], (0, 0, 0), 1e-6, "centre")
-            w, x, y, z = told["physics:principalAxes"]
+            reported = prims["/asset/rigid/" + body.get("id")].values
+            self.close(reported["xformOp:translate"], numbers(body.get("center")), 1e-6, "place")
+            self.assertAlmostEqual(reported["physics:mass"], float(body.get("mass")), delta=1e-6)
+            self.close(reported["physics:diagonalInertia"], numbers(body.get("inertia")), 1e-8, "inertia")
+            self.close(reported["physics:centerOfMass"], (0, 0, 0), 1e-6, "centre")
+            w, x, y, z = reported["physics:principalAxes"]
             self.same_rotation((x, y, z, w), numbers(body.get("inertia_rotation")), 1e-6, "axes")
 
 

@@ -68,9 +68,9 @@ class Mjcf(ProgramTest):
                           for free in inner.findall("freejoint") if inner is not body])
         for joint in world.iter("joint"):
             if joint.get("range"):
-                least, most = numbers(joint, "range")
-                self.assertLess(least, most)
-                self.assertTrue(least - 1e-5 <= float(joint.get("ref", 0)) <= most + 1e-5, joint.get("name"))
+                minimum, maximum = numbers(joint, "range")
+                self.assertLess(minimum, maximum)
+                self.assertTrue(minimum - 1e-5 <= float(joint.get("ref", 0)) <= maximum + 1e-5, joint.get("name"))
             if joint.get("axis"):
                 self.assertAlmostEqual(sum(x * x for x in numbers(joint, "axis")), 1, delta=1e-4)
         for geom in world.iter("geom"):
@@ -118,17 +118,17 @@ class Mjcf(ProgramTest):
             self.good("export", path, "-o", self.path("out.mjcf"))
             root = ElementTree.fromstring(read_text(self.path("out.mjcf")))
             world, flexes = root.find("worldbody"), list(root.iter("flex"))
-            told = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), SECONDS)
+            reported = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), SECONDS)
             count = lambda *tags: sum(len(list(world.iter(tag))) for tag in tags)  # noqa: E731
-            self.assertEqual(told["counts"], {
+            self.assertEqual(reported["counts"], {
                 "nbody": 1 + count("body"), "njnt": count("joint", "freejoint"), "nmesh": len(list(root.iter("mesh"))),
                 "nflex": len(flexes), "nflexvert": sum(len(flex.get("body").split()) for flex in flexes),
                 "nflexelem": sum(len(flex.get("element").split()) // (int(flex.get("dim")) + 1) for flex in flexes),
                 "neq": len(root.find("equality") or []), "ntendon": len(list(root.iter("spatial"))),
                 "nmocap": len([body for body in world.iter("body") if body.get("mocap")]),
                 "nexclude": len(list(root.iter("exclude"))), "nsite": count("site")}, path)
-            self.assertEqual((told["warnings"], told["finite"]), (0, True), path)
-            self.assertLess(told["fastest"], 10)  # m/s and rad/s; a fall of so long ends at 0.2 m/s
+            self.assertEqual((reported["warnings"], reported["finite"]), (0, True), path)
+            self.assertLess(reported["fastest"], 10)  # m/s and rad/s; a fall of so long ends at 0.2 m/s
 
     @play_files.needs_node
     @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
@@ -139,11 +139,11 @@ class Mjcf(ProgramTest):
                               ("letter-f/letter_f.dae", [])):
             self.good("convert", os.path.join(SHARED, name), *options, "-o", self.path("a.sbf"))
             self.good("export", self.path("a.sbf"), "-o", self.path("out.mjcf"))
-            told = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), 0.1)
-            self.assertEqual((told["warnings"], told["finite"], told["touches"]), (0, True, 0), name)
-            self.assertGreater(told["fastest"], 0.1, name)
-            self.assertLess(told["fastest"], 0.981, name)
-            self.assertLess(told["falls"], 1.2, name)
+            reported = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), 0.1)
+            self.assertEqual((reported["warnings"], reported["finite"], reported["touches"]), (0, True, 0), name)
+            self.assertGreater(reported["fastest"], 0.1, name)
+            self.assertLess(reported["fastest"], 0.981, name)
+            self.assertLess(reported["falls"], 1.2, name)
 
     @play_files.needs_node
     def test_mujoco_lets_touch_what_may(self):
@@ -164,9 +164,9 @@ class Mjcf(ProgramTest):
             with open(self.path("a.sbf"), "w", encoding="utf-8") as file:
                 file.write(text.replace("  <soft_body", f"  <rigid_bodies>{floor}{inner}</rigid_bodies>\n  <soft_body", 1))
             self.good("export", self.path("a.sbf"), "-o", self.path("out.mjcf"))
-            told = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), 0.08)
-            self.assertEqual((told["warnings"], told["finite"], told["pairs"]), (0, True, want))
-            self.assertLess(told["fastest"], 0.9)  # they begin 0.02 m apart, which their radii are in sum
+            reported = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), 0.08)
+            self.assertEqual((reported["warnings"], reported["finite"], reported["pairs"]), (0, True, want))
+            self.assertLess(reported["fastest"], 0.9)  # they begin 0.02 m apart, which their radii are in sum
 
     def test_hulls_that_lie_in_each_other(self):
         """The first and second of three do at rest, the second and third only touch; the fourth is beside all, on another layer."""
@@ -178,7 +178,7 @@ class Mjcf(ProgramTest):
         pairs = {(pair.get("body1"), pair.get("body2")) for pair in self.exported(self.path("a.sbf")).iter("exclude")}
         self.assertEqual(pairs, {("a", "b"), ("a", "d"), ("b", "d"), ("c", "d")})
 
-    def test_a_figure_with_flesh(self):
+    def test_a_figure_with_a_soft_body(self):
         self.good("build", FIGURE, "-o", self.path("figure.sbf"))
         info = self.json_of("info", self.path("figure.sbf"))
         root = self.exported(self.path("figure.sbf"))

@@ -135,7 +135,7 @@ class Usda(ProgramTest):
             for got, want in zip(flat(product(rest, above) if above else rest), flat(bind)):
                 self.assertAlmostEqual(got, want, delta=2e-5)
 
-    def test_a_figure_with_flesh(self):
+    def test_a_figure_with_a_soft_body(self):
         self.good("build", FIGURE, "-o", self.path("figure.sbf"))
         info = self.exported(self.path("figure.sbf"))
         self.check_counts(info)
@@ -153,17 +153,17 @@ class Usda(ProgramTest):
                   for node in source.find("joints")}
         checked = 0
         for prim in joints:
-            told = prim.values
-            for target, least, most in limits[prim.path.rpartition("/")[2]]:
+            reported = prim.values
+            for target, minimum, maximum in limits[prim.path.rpartition("/")[2]]:
                 axis = {"twist": "rotX", "swing_y": "rotY", "swing_z": "rotZ"}.get(target)
-                low = told.get(f"limit:{axis}:physics:low", told.get("physics:lowerLimit"))
-                high = told.get(f"limit:{axis}:physics:high", told.get("physics:upperLimit"))
+                low = reported.get(f"limit:{axis}:physics:low", reported.get("physics:lowerLimit"))
+                high = reported.get(f"limit:{axis}:physics:high", reported.get("physics:upperLimit"))
                 if axis is None:
-                    low, high = -told.get("physics:coneAngle0Limit", told.get("limit:rotY:physics:high")), None
-                    least = -most
+                    low, high = -reported.get("physics:coneAngle0Limit", reported.get("limit:rotY:physics:high")), None
+                    minimum = -maximum
                 if high is not None:
-                    self.assertAlmostEqual(math.radians(high), most, delta=1e-5)
-                self.assertAlmostEqual(math.radians(low), least, delta=1e-5, msg=prim.path)
+                    self.assertAlmostEqual(math.radians(high), maximum, delta=1e-5)
+                self.assertAlmostEqual(math.radians(low), minimum, delta=1e-5, msg=prim.path)
                 checked += 1
         self.assertGreater(checked, 14)
         # Hulls stand where the file has them.

@@ -18,7 +18,7 @@ class Gait(ProgramTest):
         cls.leg = leg_of(cls.file)
         cls.walks = {walk.name: walk for walk in all_walks()}
 
-    def test_walks_are_as_good_as_asked_for(self):
+    def test_walks_have_the_requested_quality(self):
         for name in CHOSEN:
             walk = self.walks[name]
             self.assertEqual(failures(measure(self.file, walk, self.leg), walk, self.leg), [])
@@ -30,7 +30,7 @@ class Gait(ProgramTest):
             for leg in report["rhythm"].values():
                 self.assertLessEqual(leg["period_jitter"], 0.12)
 
-    def test_a_run_says_when_the_drive_is_beyond_the_legs(self):
+    def test_a_run_reports_a_drive_too_fast_for_the_legs(self):
         kept = [measure(self.file, self.walks[name], self.leg, "--seconds", "3").get("drive_kept")
                 for name in ("flat, 1", "flat, 3", "flat, turning on the spot")]
         self.assertGreaterEqual(kept[0], 0.97)

@@ -126,7 +126,7 @@ class GlbBundles(ProgramTest):
         change(document.json)
         return write_bytes(self.path("changed.glb"), glb_of(document.json, document.binary))
 
-    def test_a_change_of_the_mesh_is_told(self):
+    def test_a_change_of_the_mesh_is_reported(self):
         document = Glb(self.glb)
         primitive = document.json["meshes"][0]["primitives"][0]
         view = document.json["bufferViews"][document.json["accessors"][primitive["attributes"]["POSITION"]]["bufferView"]]
@@ -168,9 +168,9 @@ class GlbBundles(ProgramTest):
     def test_renumbered_parts_are_found_and_written_anew(self):
         for bundle in (self.xml, os.path.join(VALID, "everything.sbf")):
             packed, changed = self.renumbered(bundle)
-            said = self.fails(1, "validate", changed)
-            self.assertIn("GLTF_CHANGED", said)
-            self.assertIn("`sbfmt validate --fix`", said)
+            printed = self.fails(1, "validate", changed)
+            self.assertIn("GLTF_CHANGED", printed)
+            self.assertIn("`sbfmt validate --fix`", printed)
             fixed = self.path("fixed.glb")
             done = self.json_of("validate", changed, "--fix", "-o", fixed)["fixed"]
             self.assertTrue({"GLTF_RENUMBERED"} <= {one["code"] for one in done})
@@ -178,7 +178,7 @@ class GlbBundles(ProgramTest):
             self.good("validate", fixed)
             self.good("diff", packed, fixed)
 
-    def test_a_moved_point_is_not_mended(self):
+    def test_a_moved_point_is_not_repaired(self):
         packed, changed = self.renumbered(self.xml)
         glb = Glb(changed)
         accessor = glb.json["accessors"][glb.json["meshes"][-1]["primitives"][0]["attributes"]["POSITION"]]
@@ -189,11 +189,11 @@ class GlbBundles(ProgramTest):
         self.assertIn("GLTF_CHANGED", self.fails(1, "validate", changed, "--fix", "-o", self.path("fixed.glb")))
         self.assertFalse(os.path.exists(self.path("fixed.glb")))
 
-    def test_what_is_not_ours_is_told(self):
+    def test_foreign_files_are_reported(self):
         path = self.changed(lambda document: document.pop("extensions"))
-        said = self.fails(1, "info", path)
-        self.assertIn("GLTF_NO_SOFT_BODY", said)
-        self.assertIn("sbfmt convert", said)
+        printed = self.fails(1, "info", path)
+        self.assertIn("GLTF_NO_SOFT_BODY", printed)
+        self.assertIn("sbfmt convert", printed)
         path = self.changed(lambda document: document["extensions"][EXTENSION].update(unheard_of=1))
         self.assertIn("unheard_of", self.fails(1, "info", path))
 

@@ -46,7 +46,7 @@ class KindsOfGait(ProgramTest):
             with self.subTest(kind):
                 self.assertAlmostEqual(end_of(kind, "0.5,0,0.4") - end_of(kind, "0.5,0"), rises, delta=0.5)
 
-    def test_info_says_the_kind(self):
+    def test_info_prints_the_kind(self):
         for kind in KINDS:
             self.assertEqual(self.json_of("info", self.file(kind))["gait"], {"kind": kind, "legs": 0})
 

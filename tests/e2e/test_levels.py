@@ -21,7 +21,7 @@ class Levels(ProgramTest):
         self.good("convert", SPOT, "-o", out, *options)
         return ElementTree.parse(out).getroot()
 
-    def test_a_ladder_of_all_models(self):
+    def test_detail_levels_of_all_models(self):
         root = self.converted("--elements", "4000", "--levels", "4", "--render-levels", "2")
         mesh, levels = root.find("render_mesh"), root.findall("soft_body/level")
         self.assertEqual([level.get("model", "springs") for level in levels],
@@ -41,7 +41,7 @@ class Levels(ProgramTest):
         self.assertGreater(costs[0], 2 * costs[1])
         self.assertEqual(costs[3], 1)
 
-    def test_error_takes_the_coarsest_that_meets_it(self):
+    def test_error_selects_the_coarsest_level_within_it(self):
         counts = []
         for error in (0.1, 0.0015):
             level = self.converted("--error", str(error)).find("soft_body/level")

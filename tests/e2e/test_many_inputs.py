@@ -50,8 +50,8 @@ class ManyInputs(ProgramTest):
     def test_one_output_takes_one_input(self):
         good = write_bytes(self.path("cube.obj"), CUBE.encode())
         other = write_bytes(self.path("other.obj"), CUBE.encode())
-        said = self.fails(2, "convert", good, other, "--no-build", "-o", self.path("out.sbf"))
-        self.assertIn("--out-dir", said)
+        printed = self.fails(2, "convert", good, other, "--no-build", "-o", self.path("out.sbf"))
+        self.assertIn("--out-dir", printed)
         self.assert_empty_folder(but=["cube.obj", "other.obj"])
 
     def test_convert(self):

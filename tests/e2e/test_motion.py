@@ -51,7 +51,7 @@ class MotionCapture(ProgramTest):
                     self.assertAlmostEqual(a[k][3], b[k][3] - start, delta=0.01)
                 self.assertGreater(dot(direction(a), direction(b)), 1 - 1e-5)
 
-    def check_limbs(self, bundle, tracks, pairs, least=1 - 1e-4):
+    def check_limbs(self, bundle, tracks, pairs, minimum=1 - 1e-4):
         source, own = self.source()
         time_s = Bvh(CMU).frame_time
         names, theirs = bundle.bone_names(), source.bone_names()
@@ -59,7 +59,7 @@ class MotionCapture(ProgramTest):
             here, there = bundle.pose(tracks, frame * time_s), source.pose(own, frame * time_s)
             for name, other in pairs:
                 a, b = direction(here[names.index(name)]), direction(there[theirs.index(other)])
-                self.assertGreater(dot(a, b), least, f"{name} in frame {frame}")
+                self.assertGreater(dot(a, b), minimum, f"{name} in frame {frame}")
 
     def test_a_human_of_the_same_names(self):
         bundle, tracks, _ = self.moved(shared("walk-dae", "walk.dae"))

@@ -41,8 +41,8 @@ class Pins(ProgramTest):
     def test_wrong_values_are_refused(self):
         for options in (("--goal", "0.7,0.2"), ("--goal", "0.2"), ("--goal", "0.2,1.5"), ("--goal", "a,b"), ("--goal-stiffness", "-1"),
                         ("--goal-stiffness", "stiff")):
-            said = self.fails(2, "convert", CALF, "--no-build", "--pin", "head", *options, "-o", self.path("none.sbf"))
-            self.assertIn(options[0], said)
+            printed = self.fails(2, "convert", CALF, "--no-build", "--pin", "head", *options, "-o", self.path("none.sbf"))
+            self.assertIn(options[0], printed)
         self.assert_empty_folder()
 
 

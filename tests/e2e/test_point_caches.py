@@ -42,12 +42,12 @@ class Caches(ProgramTest):
             self.assertEqual(pc2, mdd)
             self.assertNotEqual(pc2[:3 * count], pc2[-3 * count:])
 
-    def test_export_writes_the_same_and_says_what_it_leaves_out(self):
+    def test_export_writes_the_same_and_reports_omissions(self):
         for ending in ("pc2", "mdd"):
             self.good("run", self.bundle, *HOW, "--cache", self.path("run." + ending))
-            said = self.good("export", self.bundle, *HOW, "-o", self.path("export." + ending)).err
+            printed = self.good("export", self.bundle, *HOW, "-o", self.path("export." + ending)).err
             self.assertEqual(read_bytes(self.path("run." + ending)), read_bytes(self.path("export." + ending)))
-            self.assertRegex(said, r"bones: [1-9].*soft bodies: [1-9].*EXPORT_LEFT_OUT")
+            self.assertRegex(printed, r"bones: [1-9].*soft bodies: [1-9].*EXPORT_LEFT_OUT")
         skinless = os.path.join(ROOT, "spec", "samples", "valid", "minimal.sbf")
         self.assertEqual(self.json_of("info", skinless)["render_meshes"], [])
         refused = call("export", skinless, "-o", self.path("none.pc2"))

@@ -25,20 +25,20 @@ class PosedInputs(ProgramTest):
         return original, obj, motions, done.err
 
     def assert_right(self, name, change=lambda obj: obj, skin=0.002, joints=0.005):
-        original, obj, motions, said = self.pose(name, change)
+        original, obj, motions, printed = self.pose(name, change)
         compared = posed_inputs.motions_to_compare(original, POSES[name])
         errors = posed_inputs.skin_errors(original, obj, self.path("out.sbf"), compared)
         self.assertLess(errors[int(0.99 * (len(errors) - 1))], skin)
         self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), motions), joints)
-        self.assertNotIn("RIG_OTHER_MESH", said)
-        return obj, said
+        self.assertNotIn("RIG_OTHER_MESH", printed)
+        return obj, printed
 
-    def turns_in(self, said):
-        return {bone: int(degrees) for bone, degrees in re.findall(r"'([^']+)' by (\d+) degrees", said)}
+    def turns_in(self, printed):
+        return {bone: int(degrees) for bone, degrees in re.findall(r"'([^']+)' by (\d+) degrees", printed)}
 
     def test_arms_raised_by_45_degrees(self):
-        obj, said = self.assert_right("examples/yeti/yeti.glb")
-        turns = self.turns_in(said)
+        obj, printed = self.assert_right("examples/yeti/yeti.glb")
+        turns = self.turns_in(printed)
         self.assertEqual(set(turns), {"upper_arm.L", "upper_arm.R"})
         for degrees in turns.values():
             self.assertAlmostEqual(degrees, 45, delta=2)
@@ -63,8 +63,8 @@ class PosedInputs(ProgramTest):
                 self.assertLess(off, 0.03, f"{names[i]} at {time} s")
 
     def test_legs_in_mid_stride_of_half_the_points(self):
-        said = self.assert_right("examples/calf/calf.glb", variants.simplified, 0.005, 0.015)[1]
-        self.assertLessEqual({"fore_upper.L", "fore_upper.R", "hind_upper.L", "hind_upper.R"}, set(self.turns_in(said)))
+        printed = self.assert_right("examples/calf/calf.glb", variants.simplified, 0.005, 0.015)[1]
+        self.assertLessEqual({"fore_upper.L", "fore_upper.R", "hind_upper.L", "hind_upper.R"}, set(self.turns_in(printed)))
 
     def test_bent_legs_of_an_edited_mesh(self):
         self.assert_right("examples/pup/pup.glb", variants.jiggled, 0.015, 0.005)
@@ -82,9 +82,9 @@ class PosedInputs(ProgramTest):
         for name in ("examples/yeti/yeti.glb", "examples/calf/calf.glb", "examples/pup/pup.glb", "examples/spider/spider.glb"):
             for change in (lambda obj: obj, lambda obj: variants.moved(variants.simplified(obj), 0.01, ("x", "-z", "y"))):
                 call, original, _, motions = self.convert_bones(name, POSES[name], change)
-                said = self.good(*call).err
-                self.assertIn("limbs were rotated with their children to fit inside it", said)
-                self.assertNotIn("RIG_OTHER_MESH", said)
+                printed = self.good(*call).err
+                self.assertIn("limbs were rotated with their children to fit inside it", printed)
+                self.assertNotIn("RIG_OTHER_MESH", printed)
                 self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), motions), 0.022, name)
 
     def test_bones_saved_in_mid_stride_stand_alike_on_both_sides_of_a_symmetric_input(self):
@@ -111,18 +111,18 @@ class PosedInputs(ProgramTest):
     def test_bones_alone_whose_limbs_are_not_found_are_refused(self):
         turns = {"fore_upper": ("x", 90), "hind_upper": ("x", -80)}
         call, *_ = self.convert_bones("examples/calf/calf.glb", turns)
-        said = self.fails(1, *call)
-        self.assertRegex(said, r"not all limbs were found: after '.*' were rotated, \d+ % of the bones' length is inside; "
+        printed = self.fails(1, *call)
+        self.assertRegex(printed, r"not all limbs were found: after '.*' were rotated, \d+ % of the bones' length is inside; "
                                r"outside are '.*' by .* m.*give both the same pose, or use --weights compute.*IMPORT_RIG_OUTSIDE")
-        self.assertNotIn("this character's rig", said)
+        self.assertNotIn("this character's rig", printed)
         call, *_ = self.convert_bones("examples/calf/calf.glb", turns, lambda obj: obj, "--weights", "compute")
         self.assertIn("after its limbs were rotated", self.good(*call).err)
 
     def test_bones_of_another_body_name_what_no_bone_is_near(self):
         """Two legs and arms turned into a pup lie inside, and its head and trunk have no bones."""
         original = Original(posed_inputs.path_of("examples/pup/pup.glb"), self.folder)
-        said = self.fails(1, "convert", original.obj_path, "--rig", posed_inputs.path_of("examples/yeti/yeti.glb"), "-o", self.path("out.sbf"))
-        self.assertRegex(said, r"another pose or body than the mesh.* few bones, but \d\d % of the mesh has none near; "
+        printed = self.fails(1, "convert", original.obj_path, "--rig", posed_inputs.path_of("examples/yeti/yeti.glb"), "-o", self.path("out.sbf"))
+        self.assertRegex(printed, r"another pose or body than the mesh.* few bones, but \d\d % of the mesh has none near; "
                                r"use this character's rig, or use --weights compute \[IMPORT_RIG_OUTSIDE\]")
 
     def test_an_input_in_the_pose_of_the_rig_turns_nothing(self):

@@ -51,7 +51,7 @@ class Profile(ProgramTest):
             self.assertAlmostEqual(end, tick["ts"] + tick["dur"], delta=0.01)
             self.assertGreaterEqual(skin["ts"], end - 0.002)
 
-    def test_what_cannot_be_written_is_said(self):
+    def test_failed_writes_are_reported(self):
         result = call("run", self.file, "--trace", os.path.join(self.path("missing"), "trace.json"))
         self.assertEqual(result.status, 2)
         self.assertIn("cannot write", result.err)

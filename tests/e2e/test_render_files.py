@@ -99,7 +99,7 @@ class Render(ProgramTest):
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[0], pictures[2])
 
-    def test_a_picture_has_the_size_asked_for(self):
+    def test_a_picture_has_the_requested_size(self):
         for size in ("160x120", "97x41"):
             width, height, _, _ = read_png(self.draw("a.png", "--size", size))
             self.assertEqual(f"{width}x{height}", size)
@@ -192,27 +192,27 @@ class Render(ProgramTest):
         self.good("convert", textured_box.write(self.path(""), image), "-o", self.path("box.sbf"), "--springs", "surface", "--report",
                   self.path("box.json"))
         caption = json.loads(read_text(self.path("box.json")))["pictures"][0]["caption"]
-        said = self.good("render", self.path("box.sbf"), "-o", self.path("box.png"), *SMALL, *arguments).err
+        printed = self.good("render", self.path("box.sbf"), "-o", self.path("box.png"), *SMALL, *arguments).err
         red = sum(r > 100 and r > 2 * max(g, b) for r, g, b in colours(read_bytes(self.path("box.png"))))
-        return red, said, caption
+        return red, printed, caption
 
     def test_base_colour_images_are_drawn(self):
-        red, said, caption = self.red_of_box(textured_box.png_of(4, 4, (230, 20, 20)))
+        red, printed, caption = self.red_of_box(textured_box.png_of(4, 4, (230, 20, 20)))
         self.assertGreater(red, 20)
-        self.assertNotIn("not drawn", said + caption)
+        self.assertNotIn("not drawn", printed + caption)
 
     def test_a_skin_seen_through_has_no_image(self):
-        red, said, _ = self.red_of_box(None, "--show", "surface,bones")
-        self.assertEqual((red, "not drawn" in said), (0, False))
+        red, printed, _ = self.red_of_box(None, "--show", "surface,bones")
+        self.assertEqual((red, "not drawn" in printed), (0, False))
 
-    def test_images_that_cannot_be_drawn_are_told(self):
+    def test_unsupported_images_are_reported(self):
         whole = textured_box.png_of(4, 4, (230, 20, 20))
         for name, image, reason in (("missing", None, "cannot be read"), ("cut short", whole[:-30], "damaged"),
                                     ("empty", b"", "empty"), ("JPEG", b"\xff\xd8\xff\xe0" + bytes(40), "JPEG")):
             with self.subTest(name):
-                red, said, caption = self.red_of_box(image)
+                red, printed, caption = self.red_of_box(image)
                 self.assertEqual(red, 0)
-                self.assertRegex(said, f"warning: the image 'red.png' is not drawn.*{reason}.*IMAGE_NOT_DRAWN")
+                self.assertRegex(printed, f"warning: the image 'red.png' is not drawn.*{reason}.*IMAGE_NOT_DRAWN")
                 self.assertRegex(caption, f"The image 'red.png' is not drawn.*{reason}")
 
     def test_it_is_seen_from_where_one_likes(self):

@@ -28,10 +28,10 @@ class RenderLevels(ProgramTest):
         self.good("build", source or self.plain, "-o", out, *options)
         return out
 
-    def test_none_unless_asked_for(self):
+    def test_none_without_the_option(self):
         self.assertTrue(all(mesh["levels"] == [] for mesh in self.meshes(self.plain)))
 
-    def test_halves_that_are_told_of(self):
+    def test_reported_halves(self):
         meshes = self.meshes(self.built("--render-levels", "2"))
         self.assertTrue(any(len(mesh["levels"]) == 2 for mesh in meshes))
         for mesh in meshes:

@@ -32,16 +32,16 @@ class Replay(ProgramTest):
             self.assertGreaterEqual(played["replay_checks"], 3)
             self.assertIsNone(played["replay_differs_at_tick"])
 
-    def test_another_scheme_is_told_at_the_end(self):
+    def test_another_scheme_is_reported_at_the_end(self):
         self.record()
         report = self.json_of("run", self.file, "--replay", self.tape, "--scheme", "position_based", status=1)
         self.assertFalse(report["replay_same"])
         self.assertLessEqual(report["replay_differs_at_tick"], 60)
 
-    def test_another_start_is_told_at_once(self):
+    def test_another_start_is_reported_at_once(self):
         self.record()
-        said = self.fails(1, "run", self.file, "--replay", self.tape, "--raise", "3")
-        self.assertIn("begins in another state", said)
+        printed = self.fails(1, "run", self.file, "--replay", self.tape, "--raise", "3")
+        self.assertIn("begins in another state", printed)
 
     def test_options_that_make_the_world_are_given_again(self):
         self.record("--hold")
@@ -56,7 +56,7 @@ class Replay(ProgramTest):
         self.assertTrue(played["replay_same"])
         self.assertGreater(played["frames"], 20)
 
-    def test_what_cannot_be_played_is_told(self):
+    def test_unplayable_files_are_reported(self):
         self.record()
         whole = read_bytes(self.tape)
         write_bytes(self.tape, b"nothing of the kind")

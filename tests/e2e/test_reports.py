@@ -137,7 +137,7 @@ class Calls(ProgramTest):
         report = self.json_of("validate", self.path("absent.sbf"), os.path.join(INVALID, "surface_open.sbf"), status=2)
         self.assertEqual([m["code"] for m in report["messages"]], ["IO_CANNOT_READ", "SURFACE_OPEN"])
 
-    def test_an_image_is_looked_for_beside_the_file(self):
+    def test_an_image_is_searched_beside_the_file(self):
         text = b"<sbf version='1.0'><textures><texture id='t' path='images/skin.png'/></textures></sbf>"
         path = write_bytes(self.path("a.sbf"), text)
         self.assertEqual([m["code"] for m in self.json_of("validate", path)["messages"]], ["TEXTURE_MISSING"])
@@ -164,7 +164,7 @@ class Fixes(ProgramTest):
         self.assertEqual(json_schema.faults(report, self.schema()), [])
         return report
 
-    def test_what_can_be_mended_is(self):
+    def test_repairable_faults_are_repaired(self):
         for name in self.MENDED:
             with self.subTest(name):
                 sample = os.path.join(INVALID, name + ".sbf")
@@ -188,14 +188,14 @@ class Fixes(ProgramTest):
                 self.assertEqual(report["fixed"], [])
                 self.assertEqual([m["code"] for m in report["messages"]], [m["code"] for m in expected["messages"]])
 
-    def test_a_file_beyond_mending_is_refused_as_ever(self):
+    def test_an_unrepairable_file_is_rejected(self):
         report = self.fix(os.path.join(INVALID, "id_repeated.sbf"), status=1)
         self.assertEqual(report["fixed"], [])
         self.assertNotIn("output", report)
         self.assertEqual([m["code"] for m in report["messages"]], ["ID_REPEATED"])
         self.assert_empty_folder()
 
-    def test_the_list_says_where(self):
+    def test_the_list_names_the_location(self):
         report = self.fix(os.path.join(INVALID, "tetrahedron_inverted.sbf"))
         self.assertEqual([(m["code"], m["line"], m["index"]) for m in report["fixed"]],
                          [("TETRAHEDRON_INVERTED", 9, 1)])

@@ -63,9 +63,9 @@ class RiggedInputs(ProgramTest):
                           "one object, in centimetres": variants.moved(variants.one_object(obj_of(column.objects())), 0.01),
                           }.items():
             with self.subTest(name):
-                found, said = self.convert(obj, rig)
+                found, printed = self.convert(obj, rig)
                 self.assertEqual(found, wanted)
-                self.assertIn(f"{len(wanted)} from the same positions of the rig's mesh", said)
+                self.assertIn(f"{len(wanted)} from the same positions of the rig's mesh", printed)
         found, _ = self.convert(obj_of({"hat": column.hat}), rig)
         self.assertEqual(found, column.wanted["hat"])
 
@@ -107,17 +107,17 @@ class RiggedInputs(ProgramTest):
         rig = column.glb.write(self.path("rig.glb"))
         objects = {"body": column.body, "hat": column.hat,
                    "stranger": ([(x + 4, y, z) for x, y, z in tube(0, 2, 0.2, 20)[0]], tube(0, 2, 0.2, 20)[1])}
-        found, said = self.convert(obj_of(objects), rig)
+        found, printed = self.convert(obj_of(objects), rig)
         self.assertEqual(found[:len(column.body[0])], column.wanted["body"])
-        self.assertIn("is inside or near the object 'stranger'", said)
-        self.assertNotIn("RIG_OTHER_MESH", said)
-        self.assertIn("RIG_OBJECT_APART", said)
-        self.assertNotIn("object 'hat'", said)
-        _, said = self.convert(obj_of(column.objects()), rig)
-        self.assertNotIn("RIG_OBJECT_APART", said)
-        found, said = self.convert(obj_of(objects), rig, "--shell", "stranger=low")
+        self.assertIn("is inside or near the object 'stranger'", printed)
+        self.assertNotIn("RIG_OTHER_MESH", printed)
+        self.assertIn("RIG_OBJECT_APART", printed)
+        self.assertNotIn("object 'hat'", printed)
+        _, printed = self.convert(obj_of(column.objects()), rig)
+        self.assertNotIn("RIG_OBJECT_APART", printed)
+        found, printed = self.convert(obj_of(objects), rig, "--shell", "stranger=low")
         self.assertEqual(set(found[-len(objects["stranger"][0]):]), {"low"})
-        self.assertNotIn("RIG_OBJECT_APART", said)
+        self.assertNotIn("RIG_OBJECT_APART", printed)
 
     def test_bones_of_a_rig_with_another_mesh(self):
         """They lie inside the input, and yet may be another character's: that is told; at an odd scale it is refused."""
@@ -125,9 +125,9 @@ class RiggedInputs(ProgramTest):
         rig = column.glb.write(self.path("rig.glb"))
         points, triangles = tube(0, 2.6, 0.9)
         barrel = obj_of({"barrel": ([(1.3 * x, y, 0.8 * z) for x, y, z in points], triangles)})
-        _, said = self.convert(barrel, rig)
-        self.assertIn("RIG_OTHER_MESH", said)
-        self.assertRegex(said, r"they are \d+ % of the mesh's size apart; its bones \(\d+ % of them inside")
+        _, printed = self.convert(barrel, rig)
+        self.assertIn("RIG_OTHER_MESH", printed)
+        self.assertRegex(printed, r"they are \d+ % of the mesh's size apart; its bones \(\d+ % of them inside")
         odd = variants.moved(barrel, 0.137)
         variants.write(odd, self.path("odd.obj"))
         os.remove(self.path("out.sbf"))
@@ -136,12 +136,12 @@ class RiggedInputs(ProgramTest):
         self.assertIn("which is not a usual unit", refused)
         self.assertFalse(os.path.exists(self.path("out.sbf")))
         for obj in (barrel, odd, obj_of(column.objects())):
-            _, said = self.convert(obj, rig, "--weights", "compute")
-            self.assertNotIn("RIG_OTHER_MESH", said)
-        _, said = self.convert(odd, rig, "--unit", "0.137")
-        self.assertIn("RIG_OTHER_MESH", said)
-        _, said = self.convert(obj_of({**column.objects(), "beside": tube(4, 6, 0.2)}), rig)
-        self.assertNotIn("RIG_OTHER_MESH", said)
+            _, printed = self.convert(obj, rig, "--weights", "compute")
+            self.assertNotIn("RIG_OTHER_MESH", printed)
+        _, printed = self.convert(odd, rig, "--unit", "0.137")
+        self.assertIn("RIG_OTHER_MESH", printed)
+        _, printed = self.convert(obj_of({**column.objects(), "beside": tube(4, 6, 0.2)}), rig)
+        self.assertNotIn("RIG_OTHER_MESH", printed)
 
     def test_a_mesh_that_resembles_the_rigs(self):
         """Another character of one maker may share its hat: what is carried over to its body is reported."""
@@ -149,16 +149,16 @@ class RiggedInputs(ProgramTest):
         rig = column.glb.write(self.path("rig.glb"))
         (points, triangles), objects = column.body, column.objects()
         objects["body"] = ([(1.08 * x, y, 1.08 * z) for x, y, z in points], triangles)
-        _, said = self.convert(obj_of(objects), rig)
-        self.assertIn(f"{len(column.hat[0])} from the same positions of the rig's mesh", said)
-        self.assertRegex(said, r"resembles the input, but half of the input's surface is farther from it than \d")
-        self.assertIn("RIG_OTHER_MESH", said)
-        _, said = self.convert(obj_of(objects), rig, "--weights", "transfer")
-        self.assertNotIn("RIG_OTHER_MESH", said)
+        _, printed = self.convert(obj_of(objects), rig)
+        self.assertIn(f"{len(column.hat[0])} from the same positions of the rig's mesh", printed)
+        self.assertRegex(printed, r"resembles the input, but half of the input's surface is farther from it than \d")
+        self.assertIn("RIG_OTHER_MESH", printed)
+        _, printed = self.convert(obj_of(objects), rig, "--weights", "transfer")
+        self.assertNotIn("RIG_OTHER_MESH", printed)
         for edited in (variants.jiggled(obj_of(column.objects()), 1, 0.004), variants.jiggled(obj_of(column.objects()))):
-            _, said = self.convert(edited, rig)
-            self.assertIn("from the nearest surface", said)
-            self.assertNotIn("RIG_OTHER_MESH", said)
+            _, printed = self.convert(edited, rig)
+            self.assertIn("from the nearest surface", printed)
+            self.assertNotIn("RIG_OTHER_MESH", printed)
 
     def test_a_part_that_is_another_characters(self):
         """Most of the input lies on the rig's mesh, but a hat is wider, as clothes of two people of one maker are."""
@@ -166,10 +166,10 @@ class RiggedInputs(ProgramTest):
         rig = column.glb.write(self.path("rig.glb"))
         for radius, reported in ((0.3, False), (0.32, False), (0.36, True)):
             edited = {"body": tube(0, 2, 0.2, 12), "hat": tube(2.1, 2.5, radius, 7)}
-            _, said = self.convert(obj_of(edited), rig)
-            self.assertIn("from the nearest surface", said)
-            self.assertEqual("RIG_OTHER_MESH" in said, reported, said)
-        self.assertRegex(said, r"and \d+ % of it farther than 1.5 %: it may belong to another character")
+            _, printed = self.convert(obj_of(edited), rig)
+            self.assertIn("from the nearest surface", printed)
+            self.assertEqual("RIG_OTHER_MESH" in printed, reported, printed)
+        self.assertRegex(printed, r"and \d+ % of it farther than 1.5 %: it may belong to another character")
 
     def test_the_mesh_of_one_bone_is_another_characters(self):
         """A rig too small for joints to lie inside of anything."""
@@ -179,9 +179,9 @@ class RiggedInputs(ProgramTest):
         mesh = glb.mesh(points, triangles, [(0, 0, 0, 0)] * len(points), [(1, 0, 0, 0)] * len(points))
         glb.node("plate", mesh=mesh, skin=glb.skin([joint], inverse_binds([at(0, 0, 0)], at(0, 0, 0))))
         rig = glb.write(self.path("rig.glb"))
-        _, said = self.convert(obj_of(Column().objects()), rig)
-        self.assertIn("its bones may belong to another character", said)
-        self.assertIn("RIG_OTHER_MESH", said)
+        _, printed = self.convert(obj_of(Column().objects()), rig)
+        self.assertIn("its bones may belong to another character", printed)
+        self.assertIn("RIG_OTHER_MESH", printed)
 
     def test_vertex_colours_change_no_weights(self):
         column = Column()
@@ -190,9 +190,9 @@ class RiggedInputs(ProgramTest):
         lines = read_text(self.path("plain.obj")).splitlines()
         with open(self.path("colours.obj"), "w", encoding="ascii") as stream:
             stream.write("\n".join(line + " 0.8 0.2 0.1" if line.startswith("v ") else line for line in lines) + "\n")
-        found, said = self.convert(self.path("colours.obj"), rig)
+        found, printed = self.convert(self.path("colours.obj"), rig)
         self.assertEqual(found, column.wanted["body"] + column.wanted["hat"])
-        self.assertIn(f"the colors of {len(found)} vertices are left out", said)
+        self.assertIn(f"the colors of {len(found)} vertices are left out", printed)
         places = [p for mesh in Bundle(self.path("out.sbf")).meshes for p in Bundle(self.path("out.sbf")).positions(mesh)]
         self.assertEqual(len(places), len(found))
         self.assertAlmostEqual(max(p[1] for p in places), 2.5, 5)
@@ -203,9 +203,9 @@ class RiggedInputs(ProgramTest):
         variants.write(obj_of(column.objects()), self.path("free.obj"))
         with open(self.path("free.obj"), "a", encoding="ascii") as stream:
             stream.write("cstype bspline\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 0 0 0 1 1 1 1\nend\n")
-        found, said = self.convert(self.path("free.obj"), rig)
+        found, printed = self.convert(self.path("free.obj"), rig)
         self.assertEqual(found, column.wanted["body"] + column.wanted["hat"])
-        self.assertIn("5 lines that do not define polygons are skipped, the first is \"cstype\"", said)
+        self.assertIn("5 lines that do not define polygons are skipped, the first is \"cstype\"", printed)
 
     def test_what_holds_no_polygon_says_what_to_export(self):
         rig = Column().glb.write(self.path("rig.glb"))
@@ -213,23 +213,23 @@ class RiggedInputs(ProgramTest):
             stream.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nend\n")
         with open(self.path("points.obj"), "w", encoding="ascii") as stream:
             stream.write("v 0 0 0\nv 1 0 0\nl 1 2\n")
-        for name, said in (("free.obj", "it has only free-form curves and surfaces: export it as a polygon mesh"),
+        for name, printed in (("free.obj", "it has only free-form curves and surfaces: export it as a polygon mesh"),
                            ("points.obj", "export polygons")):
-            self.assertIn(said, self.fails(1, "convert", self.path(name), "--rig", rig, "-o", self.path("no.sbf")))
+            self.assertIn(printed, self.fails(1, "convert", self.path(name), "--rig", rig, "-o", self.path("no.sbf")))
         for ending, text in ((".node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n"), (".ele", "1 4 0\n0 0 1 2 3\n")):
             with open(self.path("tets" + ending), "w", encoding="ascii") as stream:
                 stream.write(text)
-        said = self.fails(2, "convert", self.path("tets.ele"), "--rig", rig, "-o", self.path("no.sbf"))
-        self.assertIn("has only tetrahedra and cannot use a rig: convert the surface as OBJ or PLY with --rig", said)
+        printed = self.fails(2, "convert", self.path("tets.ele"), "--rig", rig, "-o", self.path("no.sbf"))
+        self.assertIn("has only tetrahedra and cannot use a rig: convert the surface as OBJ or PLY with --rig", printed)
 
     def test_objects_named_as_bones_of_a_rig_without_a_mesh(self):
         """They are sections of those bones, whatever bone is nearest; the others are computed."""
         write_bones(self.path("arm.bvh"))
         objects = {"hand": box((0.2, -0.2, -0.2), (0.8, 0.2, 0.2)), "fore": box((1.2, -0.2, -0.2), (1.8, 0.2, 0.2)),
                    "other": box((2.2, -0.2, -0.2), (2.8, 0.2, 0.2))}
-        found, said = self.convert(obj_of(objects), self.path("arm.bvh"))
+        found, printed = self.convert(obj_of(objects), self.path("arm.bvh"))
         self.assertEqual(found, ["hand"] * 8 + ["fore"] * 8 + ["hand"] * 8)
-        self.assertIn("16 from the names of objects or bones, 8 computed from the bones", said)
+        self.assertIn("16 from the names of objects or bones, 8 computed from the bones", printed)
 
     def test_polygons_with_points_of_their_own_become_one_body(self):
         """As exporters write flat-shaded meshes. The two sides of a sheet, which also meet, stay separate."""
@@ -241,9 +241,9 @@ class RiggedInputs(ProgramTest):
         self.assertEqual(len(apart.points), 6 + 36)
         self.convert(whole, self.path("arm.bvh"))
         self.assertEqual(self.meshes(), {"hand": 6, "fore": 8})
-        _, said = self.convert(apart, self.path("arm.bvh"))
+        _, printed = self.convert(apart, self.path("arm.bvh"))
         self.assertEqual(self.meshes(), {"hand": 6, "fore": 8})
-        self.assertIn("42 points of the file became 14: polygons of an object that meet along an edge", said)
+        self.assertIn("42 points of the file became 14: polygons of an object that meet along an edge", printed)
 
     def test_points_far_from_all_others(self):
         """One that no polygon uses is left out, and one of a polygon is named; neither takes forever."""
@@ -252,18 +252,18 @@ class RiggedInputs(ProgramTest):
         wanted = column.wanted["body"] + column.wanted["hat"]
         unused, used, farther = (obj_of(column.objects()) for _ in range(3))
         unused.points, unused.origins = points + [(500, 0, 0)], unused.origins + [[]]
-        found, said = self.convert(unused, rig)
+        found, printed = self.convert(unused, rig)
         self.assertEqual(found, wanted)
-        self.assertIn("1 vertices that no face uses are left out", said)
-        self.assertNotIn("RIG_OBJECT_APART", said)
+        self.assertIn("1 vertices that no face uses are left out", printed)
+        self.assertNotIn("RIG_OBJECT_APART", printed)
         used.points = points[:7] + [(500, 0, 0)] + points[8:]
-        _, said = self.convert(used, rig)
-        self.assertRegex(said, r"1 of the points of the object 'body' are farther .*: vertex 7 by 500 m; delete or move them")
-        self.assertNotIn("shells of the object", said)
+        _, printed = self.convert(used, rig)
+        self.assertRegex(printed, r"1 of the points of the object 'body' are farther .*: vertex 7 by 500 m; delete or move them")
+        self.assertNotIn("shells of the object", printed)
         farther.points = points[:7] + [(1e30, 0, 0)] + points[8:]
         variants.write(farther, self.path("farther.obj"))
-        said = self.good("convert", self.path("farther.obj"), "--rig", rig, *SOURCE_PARTS, "-o", self.path("out.sbf"), timeout=60).err
-        self.assertIn("vertex 7 by 1e+30 m", said)
+        printed = self.good("convert", self.path("farther.obj"), "--rig", rig, *SOURCE_PARTS, "-o", self.path("out.sbf"), timeout=60).err
+        self.assertIn("vertex 7 by 1e+30 m", printed)
 
     def test_a_piece_beside_a_rigid_part_follows_its_bone_whole(self):
         """Two stiff tubes, one on the other; the lower one was made longer, and its end lies on the upper one's side."""
@@ -276,9 +276,9 @@ class RiggedInputs(ProgramTest):
             glb.node(("lower", "upper")[bone], mesh=mesh,
                      skin=glb.skin(joints, inverse_binds([at(0, 0, 0), at(0, 1, 0)], at(0, 0, 0))))
         longer = [(x, 1.03 * y, z) for x, y, z in low[0]], low[1]
-        found, said = self.convert(obj_of({"lower": longer, "upper": high}), glb.write(self.path("rig.glb")))
+        found, printed = self.convert(obj_of({"lower": longer, "upper": high}), glb.write(self.path("rig.glb")))
         self.assertEqual(found, ["low"] * len(low[0]) + ["high"] * len(high[0]))
-        self.assertIn("from the nearest surface", said)
+        self.assertIn("from the nearest surface", printed)
 
     def test_limbs_in_another_pose_than_the_rigs(self):
         """A small part of an object may move with the bone that it touches, but not an arm."""
@@ -287,9 +287,9 @@ class RiggedInputs(ProgramTest):
         for rings, reported in ((2, False), (8, True)):
             points, triangles = tube(4, 6, 0.2, rings)
             joined = variants.one_object(obj_of({**column.objects(), "beside": (points, triangles)}))
-            found, said = self.convert(joined, rig)
-            self.assertIn(f"{len(points)} from the bone that their piece touches", said)
-            self.assertEqual(f"{len(points)} of {len(found)} points are away from the mesh" in said, reported)
+            found, printed = self.convert(joined, rig)
+            self.assertIn(f"{len(points)} from the bone that their piece touches", printed)
+            self.assertEqual(f"{len(points)} of {len(found)} points are away from the mesh" in printed, reported)
 
     def test_what_stands_on_a_joint_follows_one_bone(self):
         """A saddle that overlaps the skin of two bones: all of it hangs on the one that it touches most."""
@@ -300,14 +300,14 @@ class RiggedInputs(ProgramTest):
         for name in ("saddle", "body"):  # an object of its own, or a shell of the body's
             obj = obj_of({"body": column.body, "hat": column.hat, "saddle": saddle})
             obj.faces = [(name if part == "saddle" else part, m, c) for part, m, c in obj.faces]
-            found, said = self.convert(obj, rig)
+            found, printed = self.convert(obj, rig)
             weights = weights_by_vertex(self.path("out.sbf"))
             first = len(column.body[0]) + len(column.hat[0])
             for vertex in range(first, first + len(points)):
                 self.assertEqual(weights[vertex][0], {"high": 1.0})
             self.assertEqual(found[:len(column.body[0])], column.wanted["body"])
-            self.assertIn(f"{len(points)} from the bone that their piece touches", said)
-            self.assertNotIn("RIG_OBJECT_APART", said)
+            self.assertIn(f"{len(points)} from the bone that their piece touches", printed)
+            self.assertNotIn("RIG_OBJECT_APART", printed)
 
     def test_two_characters_in_one_object(self):
         """Shells far from the rig are named."""
@@ -315,11 +315,11 @@ class RiggedInputs(ProgramTest):
         rig = column.glb.write(self.path("rig.glb"))
         for shells, apart in (({"twin": 1.2}, 1), ({"twin": 1.2, "third": -2.0}, 2), ({}, 0)):
             more = {name: ([(x + by, y, z) for x, y, z in column.body[0]], column.body[1]) for name, by in shells.items()}
-            _, said = self.convert(variants.one_object(obj_of({**column.objects(), **more}), "both"), rig)
-            self.assertEqual("RIG_OBJECT_APART" in said, apart > 0, said)
+            _, printed = self.convert(variants.one_object(obj_of({**column.objects(), **more}), "both"), rig)
+            self.assertEqual("RIG_OBJECT_APART" in printed, apart > 0, printed)
             if apart:
-                self.assertIn(f"{apart} of {2 + apart} shells of the object 'both' are apart from the rig", said)
-                self.assertIn("'both#3'", said)
+                self.assertIn(f"{apart} of {2 + apart} shells of the object 'both' are apart from the rig", printed)
+                self.assertIn("'both#3'", printed)
 
     def test_a_skin_of_its_own_is_kept(self):
         """An input whose skin names the bones of the rig keeps it, though the rig's own mesh says otherwise."""

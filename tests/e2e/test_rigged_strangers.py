@@ -77,10 +77,10 @@ class Cow(ProgramTest):
 
     @needs(shared("spot", "spot.obj"), MOCAP)
     def test_the_skeleton_of_a_person_is_refused(self):
-        said = self.fails(1, "convert", shared("spot", "spot.obj"), "--rig", MOCAP, "--report", self.path("why.json"), "-o",
+        printed = self.fails(1, "convert", shared("spot", "spot.obj"), "--rig", MOCAP, "--report", self.path("why.json"), "-o",
                           self.path("no.sbf"))
-        self.assertRegex(said, r"not all limbs were found: after '.*' were rotated, \d+ % of the bones' length is inside")
-        self.assertIn("IMPORT_RIG_OUTSIDE", said)
+        self.assertRegex(printed, r"not all limbs were found: after '.*' were rotated, \d+ % of the bones' length is inside")
+        self.assertIn("IMPORT_RIG_OUTSIDE", printed)
         self.assert_empty_folder(but=["why.json"])
         with open(self.path("why.json"), encoding="utf-8") as stream:
             self.assertEqual(len(json.load(stream)["bundle"]["render_meshes"]), 1)
@@ -89,8 +89,8 @@ class Cow(ProgramTest):
     @needs(shared("spot", "spot.obj"), LONG_COW)
     def test_parts_without_bones_are_named(self):
         """All bones of a long cow lie in the fat one, but not in its head and legs."""
-        said = self.fails(1, "convert", shared("spot", "spot.obj"), "--rig", LONG_COW, "-o", self.path("no.sbf"))
-        self.assertRegex(said, r"outside are no bones, but (3[5-9]|[4-9]\d) % of the mesh has none near; .*IMPORT_RIG_OUTSIDE")
+        printed = self.fails(1, "convert", shared("spot", "spot.obj"), "--rig", LONG_COW, "-o", self.path("no.sbf"))
+        self.assertRegex(printed, r"outside are no bones, but (3[5-9]|[4-9]\d) % of the mesh has none near; .*IMPORT_RIG_OUTSIDE")
 
 
 class Ball(ProgramTest):
@@ -151,12 +151,12 @@ class Armadillo(ProgramTest):
         write_surface(shared("armadillo", "armadillo_4k"), self.path("4k.obj"), 5)
         fine = self.weights(shared("armadillo", "armadillo_25k.obj"))
         self.assertEqual({bone for _, bone in fine}, {name for name, _, _ in ARMADILLO if not name.endswith("_end")})
-        for path, points, share in ((self.path("4k.obj"), 1000, LEAST_4K),
+        for path, points, fraction in ((self.path("4k.obj"), 1000, LEAST_4K),
                                     (shared("armadillo", "armadillo_1k.obj"), 500, LEAST_1K)):
             coarse = self.weights(path)[::3]
             self.assertGreater(3 * len(coarse), points)
             same = sum(bone == min(fine, key=lambda f: math.dist(f[0], place))[1] for place, bone in coarse)
-            self.assertGreaterEqual(same / len(coarse), share)
+            self.assertGreaterEqual(same / len(coarse), fraction)
 
 
 def write_surface(path, obj_path, scale):

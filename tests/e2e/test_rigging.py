@@ -86,13 +86,13 @@ class ByPlace(ProgramTest):
         return self.good("convert", self.path("in.obj"), "--rig", rig, *options, "-o", self.path("out.sbf"))
 
     def test_weights_are_those_of_the_rig(self):
-        for name, (obj, said) in same_mesh(self.calf.obj).items():
+        for name, (obj, printed) in same_mesh(self.calf.obj).items():
             with self.subTest(name):
                 result = self.convert(obj, *SOURCE_PARTS)
                 self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
                 self.assertIn(" from the same positions of the rig's mesh", result.err)
-                if said:
-                    self.assertIn(said, result.err)
+                if printed:
+                    self.assertIn(printed, result.err)
 
     def test_it_becomes_what_the_file_of_both_becomes(self):
         self.good("convert", CALF, "--soft", "*", "-o", self.path("original.sbf"))
@@ -106,7 +106,7 @@ class ByPlace(ProgramTest):
         self.assertGreater(walks[0]["distance"], 0.5)
         self.assertAlmostEqual(walks[1]["distance"] / walks[0]["distance"], 1, delta=0.02)
 
-    def test_names_tell_left_from_right(self):
+    def test_names_distinguish_left_and_right(self):
         """A symmetric character of named objects fits as well unmirrored: its left would hang on the right."""
         lizard = Original(LIZARD, self.class_folder.name)
         result = self.convert(variants.moved(lizard.obj, 1, ("-x", "y", "z"), (5, 1, -2)), *SOURCE_PARTS, rig=LIZARD)
@@ -163,9 +163,9 @@ class ByPlace(ProgramTest):
 
     def test_match_refuses_another_mesh(self):
         variants.write(variants.jiggled(self.calf.obj, 0.5), self.path("in.obj"))
-        said = self.fails(1, "convert", self.path("in.obj"), "--rig", CALF, "--weights", "match", "-o",
+        printed = self.fails(1, "convert", self.path("in.obj"), "--rig", CALF, "--weights", "match", "-o",
                           self.path("out.sbf"))
-        self.assertIn("RIG_MISFIT", said)
+        self.assertIn("RIG_MISFIT", printed)
         self.assert_empty_folder(but=["in.obj"])
 
 
@@ -442,9 +442,9 @@ class ByNearness(ProgramTest):
 
     def test_transfer_refuses_another_character(self):
         variants.write(self.calf.obj, self.path("in.obj"))
-        said = self.fails(1, "convert", self.path("in.obj"), "--rig", SNAKE, "--weights", "transfer", "-o",
+        printed = self.fails(1, "convert", self.path("in.obj"), "--rig", SNAKE, "--weights", "transfer", "-o",
                           self.path("out.sbf"))
-        self.assertIn("RIG_MISFIT", said)
+        self.assertIn("RIG_MISFIT", printed)
         self.assert_empty_folder(but=["in.obj"])
 
 
@@ -477,10 +477,10 @@ class FromFile(ProgramTest):
         bone = next(iter(self.calf.weights[0]))
         rows, count = "".join(f"{i},{bone},1\n" for i in range(6)), len(self.calf.obj.points)
         write_bytes(self.path("w.csv"), f"vertex,bone,weight\n{rows}".encode())
-        said = self.good(*self.convert(self.path("w.csv"))).err
-        self.assertIn(f"warning: {self.calf.obj_path}: the weights file has 6 of the {count} points", said)
+        printed = self.good(*self.convert(self.path("w.csv"))).err
+        self.assertIn(f"warning: {self.calf.obj_path}: the weights file has 6 of the {count} points", printed)
         root = Bundle(self.path("out.sbf")).bone_names()[0]
-        self.assertIn(f"the other {count - 6} follow the root bone '{root}'", said)
+        self.assertIn(f"the other {count - 6} follow the root bone '{root}'", printed)
         found = weights_by_vertex(self.path("out.sbf"))
         self.assertEqual([found[i][0] for i in (5, 6)], [{bone: 1}, {root: 1}])
         rows = "".join(f"{i},{bone},1\n" for i in range(count))
@@ -500,11 +500,11 @@ class FromFile(ProgramTest):
             "vertex,bone,weight\n": "no vertex has a weight",
             "": "the file is empty",
         }
-        for text, said in faults.items():
+        for text, printed in faults.items():
             with self.subTest(text):
                 write_bytes(self.path("w.csv"), text.encode())
                 error = self.fails(1, *self.convert(self.path("w.csv")))
-                self.assertRegex(error, said)
+                self.assertRegex(error, printed)
                 self.assertIn("w.csv", error)
                 self.assertIn("RIG_WEIGHTS_FILE", error)
                 self.assert_empty_folder(but=["w.csv"])
@@ -547,7 +547,7 @@ class FromBones(ProgramTest):
         return ("convert", self.path("in.obj"), "--rig", self.bones, *options, "-o", self.path("out.sbf"))
 
     def test_unit_and_axes_are_found_by_what_lies_inside(self):
-        for name, (obj, said) in {
+        for name, (obj, printed) in {
                 "as it is": (self.calf.obj, None),
                 "centimetres, Z up": (variants.moved(self.calf.obj, 0.01, ("x", "-z", "y")), "-90 degrees about x"),
                 "an odd unit, elsewhere": (variants.moved(self.calf.obj, 0.37, offset=(3, 0, 5)), "moved by"),
@@ -555,8 +555,8 @@ class FromBones(ProgramTest):
             with self.subTest(name):
                 result = self.good(*self.convert(obj, *SOURCE_PARTS))
                 self.assertIn("computed from the bones", result.err)
-                if said:
-                    self.assertIn(said, result.err)
+                if printed:
+                    self.assertIn(printed, result.err)
                 bundle = Bundle(self.path("out.sbf"))
                 sizes = [max(p[1] for p in points) - min(p[1] for p in points) for points in (
                     [p for mesh in bundle.meshes for p in bundle.positions(mesh)], [tuple(r[3] for r in f) for f in bundle.rest])]
@@ -564,14 +564,14 @@ class FromBones(ProgramTest):
 
     def test_bones_without_a_unit_take_the_size_of_the_input(self):
         """A BVH states no unit: it is scaled, upright, and --unit of the input holds."""
-        for name, scale, unit, told in (("twice as large", 1, "2", "scaled by 2,"), ("an odd scale", 4.95, None, "scaled by"),
+        for name, scale, unit, reported in (("twice as large", 1, "2", "scaled by 2,"), ("an odd scale", 4.95, None, "scaled by"),
                                         ("an odd scale, small", 0.0731, "1", "scaled by")):
             with self.subTest(name):
                 write_bones(self.calf.bundle, self.path("scaled.bvh"), scale)
                 variants.write(self.calf.obj, self.path("in.obj"), 6)
                 done = self.good("convert", self.path("in.obj"), "--rig", self.path("scaled.bvh"), *SOURCE_PARTS,
                                  *(["--unit", unit] if unit else []), "-o", self.path("out.sbf"))
-                self.assertIn("states no unit: it was " + told, done.err)
+                self.assertIn("states no unit: it was " + reported, done.err)
                 bundle = Bundle(self.path("out.sbf"))
                 found = weights_by_vertex(self.path("out.sbf"))
                 for axis in range(3):  # neither turned nor mirrored
@@ -598,8 +598,8 @@ class FromBones(ProgramTest):
         expected = weights_by_vertex(self.path("out.sbf"))
         for name, pieces in (("shared", cut), ("doubled", variants.doubled(cut, lambda face, corner: (corner[0], face[0])))):
             with self.subTest(name):
-                said = self.good(*self.convert(pieces, *SOURCE_PARTS, "--verbose")).err
-                self.assertRegex(said, r"are open and share their borders, .*--weights named .*\[IMPORT_POINTS_JOINED\]")
+                printed = self.good(*self.convert(pieces, *SOURCE_PARTS, "--verbose")).err
+                self.assertRegex(printed, r"are open and share their borders, .*--weights named .*\[IMPORT_POINTS_JOINED\]")
                 found = {place: weights for weights, place in weights_by_vertex(self.path("out.sbf")).values()}
                 errors = sorted(difference(weights, found[place]) for weights, place in expected.values())
                 self.assertLess(errors[int(0.95 * len(errors))], 1e-3)  # another order of points: other ties and rounding
@@ -608,17 +608,17 @@ class FromBones(ProgramTest):
         self.assertTrue(report["valid"])
         self.assertLess(report["max_strain"], 1)
         self.assertGreater(report["distance"], 0.2)
-        said = self.good(*self.convert(cut, *SOURCE_PARTS, "--weights", "named")).err
-        self.assertNotIn("IMPORT_POINTS_JOINED", said)
+        printed = self.good(*self.convert(cut, *SOURCE_PARTS, "--weights", "named")).err
+        self.assertNotIn("IMPORT_POINTS_JOINED", printed)
 
     def test_a_rig_of_another_character_is_refused(self):
         pole = variants.Obj([(0.01 * x, y, 0.01 * z) for x in (0, 1) for y in (0, 3) for z in (0, 1)], [], [],
                             [("pole", None, [(i, None, None) for i in c]) for c in
                              ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))])
-        said = self.fails(1, *self.convert(pole))
-        self.assertRegex(said, r"only \d+ % of the bones' length is inside the mesh; outside are '.*' by .* m")
-        self.assertIn("IMPORT_RIG_OUTSIDE", said)
-        self.assertNotIn("rest pose", said)
+        printed = self.fails(1, *self.convert(pole))
+        self.assertRegex(printed, r"only \d+ % of the bones' length is inside the mesh; outside are '.*' by .* m")
+        self.assertIn("IMPORT_RIG_OUTSIDE", printed)
+        self.assertNotIn("rest pose", printed)
         self.assert_empty_folder(but=["in.obj"])
         self.fails(1, *self.convert(pole, "--report", self.path("why.json")))
         self.assert_empty_folder(but=["in.obj", "why.json"])
@@ -633,8 +633,8 @@ class FromBones(ProgramTest):
         posed_inputs.write_bones(self.path("jump.glb"), self.path("bones.glb"))
         variants.write(variants.Obj([(0, 0, 0), (0, 3, 0), (0, 0, 0.01)], [], [], [("pole", None, [(i, None, None) for i in range(3)])]),
                        self.path("in.obj"))
-        said = self.fails(1, "convert", self.path("in.obj"), "--rig", self.path("bones.glb"), "-o", self.path("out.sbf"))
-        self.assertRegex(said, r"exported in its rest pose \(its clips may have moved it\) or with its mesh.*IMPORT_RIG_OUTSIDE")
+        printed = self.fails(1, "convert", self.path("in.obj"), "--rig", self.path("bones.glb"), "-o", self.path("out.sbf"))
+        self.assertRegex(printed, r"exported in its rest pose \(its clips may have moved it\) or with its mesh.*IMPORT_RIG_OUTSIDE")
 
     def test_bones_that_fit_a_part_of_the_mesh_are_refused(self):
         """A fish's and a snake's bones lie inside a calf's trunk, at some scale."""
@@ -643,8 +643,8 @@ class FromBones(ProgramTest):
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
                 write_bones(Original(os.path.join(ROOT, "examples", name, name + ".glb"), folder).bundle, self.path("other.bvh"))
                 call = ("convert", self.path("in.obj"), "--rig", self.path("other.bvh"), *SOURCE_PARTS)
-                said = self.fails(1, *call, "-o", self.path("out.sbf"))
-                self.assertRegex(said, r"extend over only \d+ % of its length.*RIG_MISFIT|only \d+ % of the bones' length")
+                printed = self.fails(1, *call, "-o", self.path("out.sbf"))
+                self.assertRegex(printed, r"extend over only \d+ % of its length.*RIG_MISFIT|only \d+ % of the bones' length")
                 self.assert_empty_folder(but=["in.obj", "other.bvh"])
 
     def test_a_body_as_wide_as_long_is_turned_forwards(self):
@@ -661,7 +661,7 @@ class FromBones(ProgramTest):
         self.fails(1, *self.convert(triangle))
         self.assert_empty_folder(but=["in.obj"])
 
-    def test_forward_says_where_it_looks(self):
+    def test_forward_sets_the_facing_direction(self):
         """The calf looks along +Z: told that its tail is ahead, it is laid the other way round."""
         for forward, sign in ("z", 1), ("-z", -1):
             self.good(*self.convert(self.calf.obj, *SOURCE_PARTS, "--forward", forward))
@@ -674,9 +674,9 @@ class FromBones(ProgramTest):
 
     def test_stated_units_hold(self):
         """--unit says how large the input is: then the rig is too large for it."""
-        said = self.fails(1, "convert", self.calf.obj_path, "--rig", CALF, "--unit", "0.01", "--weights", "match", "-o",
+        printed = self.fails(1, "convert", self.calf.obj_path, "--rig", CALF, "--unit", "0.01", "--weights", "match", "-o",
                           self.path("out.sbf"))
-        self.assertIn("RIG_MISFIT", said)
+        self.assertIn("RIG_MISFIT", printed)
         self.assert_empty_folder()
 
 

@@ -29,17 +29,17 @@ class RigidTest(ProgramTest):
         """The bundle's path, and what was said."""
         source, bundle = self.path(name + ".glb"), self.path(name + ".sbf")
         write_bytes(source, scene if isinstance(scene, bytes) else scene.bytes())
-        said = self.good("convert", source, "-o", bundle).err
+        printed = self.good("convert", source, "-o", bundle).err
         self.good("validate", bundle)
-        return bundle, said
+        return bundle, printed
 
     def refused(self, scene):
         source = self.path("bad.glb")
         write_bytes(source, scene if isinstance(scene, bytes) else scene.bytes())
-        said = self.fails(1, "convert", source, "-o", self.path("bad.sbf"))
-        self.assertIn("IMPORT_PHYSICS", said)
+        printed = self.fails(1, "convert", source, "-o", self.path("bad.sbf"))
+        self.assertIn("IMPORT_PHYSICS", printed)
         self.assertFalse(os.path.exists(self.path("bad.sbf")))
-        return said
+        return printed
 
     def parts(self, bundle):
         """The rigid bodies by name, and the joints in order."""
@@ -232,8 +232,8 @@ class Masses(RigidTest):
         body = scene.body("dumbbell", collider=False)
         for side in (-1, 1):
             scene.node("weight", body, {"collider": scene.shape("sphere", radius=0.5)}, translation=[2 * side, 0, 0])
-        bundle, said = self.convert(scene)
-        self.assertIn("1 of KHR_physics_rigid_bodies: bodies of several colliders", said)
+        bundle, printed = self.convert(scene)
+        self.assertIn("1 of KHR_physics_rigid_bodies: bodies of several colliders", printed)
         found = self.parts(bundle)[0]["dumbbell"]
         ball = 1000 * math.pi / 6
         self.assertAlmostEqual(float(found.get("mass")), 2 * ball, delta=0.02)
@@ -262,14 +262,14 @@ class Surroundings(RigidTest):
                          {"collisionSystems": ["a", "b"], "notCollideWithSystems": ["b"]}]
         for k in range(3):
             scene.body(f"body {k}", at=(3 * k, 50, 0), collider={**scene.shape("sphere", radius=1), "collisionFilter": k, "physicsMaterial": 0})
-        bundle, said = self.convert(scene)
+        bundle, printed = self.convert(scene)
         found = [self.parts(bundle)[0][f"body {k}"] for k in range(3)]
         self.assertEqual({(float(b.get("friction")), float(b.get("restitution"))) for b in found}, {(0.7, 0.3)})
         layers = [(int(b.get("layer", "1")), int(b.get("mask", str(2**32 - 1)))) for b in found]
         meet = [[bool(a[0] & b[1] and b[0] & a[1]) for b in layers] for a in layers]
         self.assertEqual(meet, [[False, True, False], [True, True, False], [False, False, True]])
         for what in ("3 of KHR_physics_rigid_bodies: static frictions", "3 of KHR_physics_rigid_bodies: rules of combining"):
-            self.assertIn(what, said)
+            self.assertIn(what, printed)
 
     def test_what_is_lost_is_counted(self):
         scene = Scene()
@@ -281,18 +281,18 @@ class Surroundings(RigidTest):
         tube = scene.body("tube", at=(12, 50, 0))
         scene.joint(tube, None, [{"linearAxes": [0, 1], "max": 1}, {"angularAxes": [0, 1, 2], "max": 0.3}], other_at=(12, 50, 0))
         scene.joint(scene.node("a"), None, [LINEAR])
-        _, said = self.convert(scene)
+        _, printed = self.convert(scene)
         for what in ("planes", "static colliders", "triggers", "velocities of kinematic bodies", "infinite masses", "neither mass nor shape",
                      "distance from a line", "rotation about all axes", "static nodes"):
-            self.assertRegex(said, f"1 of KHR_physics_rigid_bodies: [^:]*{what}")
+            self.assertRegex(printed, f"1 of KHR_physics_rigid_bodies: [^:]*{what}")
 
     def test_with_another_rig_they_are_left_out(self):
         scene = Scene()
         scene.body("box", at=(0, 0.2, 0), mass=1)
         write_bytes(self.path("box.glb"), scene.bytes())
         rig = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
-        said = call("convert", self.path("box.glb"), "--rig", rig, "-o", self.path("box.sbf"), "--no-build").err
-        self.assertIn("rigid bodies and joints are left out", said)
+        printed = call("convert", self.path("box.glb"), "--rig", rig, "-o", self.path("box.sbf"), "--no-build").err
+        self.assertIn("rigid bodies and joints are left out", printed)
 
     def test_a_text_file_with_its_buffer_beside(self):
         scene = Scene()

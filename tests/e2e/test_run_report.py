@@ -38,7 +38,7 @@ class Run(ProgramTest):
             self.assertTrue(math.isfinite(report[key]), key)
         self.assertGreaterEqual(report["substeps"], 1)
 
-    def test_text_says_the_same(self):
+    def test_the_text_is_equal(self):
         text = self.good("run", self.file, "--seconds", "0.1").out
         for key in KEYS:
             self.assertIn(key, text)
@@ -203,14 +203,14 @@ class Run(ProgramTest):
 
     def test_a_pipe_is_written_to_and_not_replaced(self):
         """What holds for it holds for a device, as in `--pose /dev/null` by root."""
-        pipe, said = self.path("pipe"), []
+        pipe, printed = self.path("pipe"), []
         os.mkfifo(pipe)
-        reader = threading.Thread(target=lambda: said.append(read_bytes(pipe)))
+        reader = threading.Thread(target=lambda: printed.append(read_bytes(pipe)))
         reader.start()
         self.run_json("--pose", pipe, seconds=0.1)
         reader.join(10)
         self.assertTrue(stat.S_ISFIFO(os.stat(pipe).st_mode))
-        self.assertTrue(said and said[0].startswith(b"frame,time,bone"))
+        self.assertTrue(printed and printed[0].startswith(b"frame,time,bone"))
 
     # ---- Scripts ----
 

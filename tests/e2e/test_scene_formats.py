@@ -36,8 +36,8 @@ def volume(points, sizes, corners):
 class Boxes(ProgramTest):
     def converted(self, name, content, *options):
         path = write_bytes(self.path(name), content)
-        said = self.good("convert", *SOURCE_PARTS, path, "-o", self.path("out.sbf"), *options).err
-        return Bundle(self.path("out.sbf")), said
+        printed = self.good("convert", *SOURCE_PARTS, path, "-o", self.path("out.sbf"), *options).err
+        return Bundle(self.path("out.sbf")), printed
 
     def check_box(self, bundle, low, high):
         mesh, = bundle.meshes
@@ -54,7 +54,7 @@ class Boxes(ProgramTest):
     def test_every_form(self):
         for name, make in scene_files.FILES.items():
             with self.subTest(name):
-                bundle, said = self.converted(name, make())
+                bundle, printed = self.converted(name, make())
                 low, high = (0, 0, 0), (1, 2, 3)
                 if name in TURNED:
                     low, high = (0, 0, -2), (1, 3, 0)
@@ -65,9 +65,9 @@ class Boxes(ProgramTest):
                 self.assertEqual(mesh.get("name"), NAMES.get(name, "box"))
                 has_rig = name == "box.smd"
                 self.assertEqual(len(bundle.bones), 2 if has_rig else 0)
-                self.assertEqual(codes(said), NOTES.get(name, JOINED) | (set() if has_rig else {"IMPORT_NO_RIG"}))
+                self.assertEqual(codes(printed), NOTES.get(name, JOINED) | (set() if has_rig else {"IMPORT_NO_RIG"}))
 
-    def test_what_a_file_says_of_unit_and_axes_is_heeded_and_the_call_knows_better(self):
+    def test_unit_and_axes_from_the_file_and_overrides_from_the_call(self):
         bundle, _ = self.converted("a.dae", scene_files.dae("Z_UP", 0.01))
         self.check_box(bundle, (0, 0, -0.02), (0.01, 0.03, 0))
         bundle, _ = self.converted("a.ply", scene_files.ply(), "--unit", "0.1", "--up", "z")
@@ -85,9 +85,9 @@ class Boxes(ProgramTest):
     def test_cut_files_are_refused_or_read_whole(self):
         for name, make in scene_files.FILES.items():
             content = make()
-            for share in (0.1, 0.5, 0.9):
-                with self.subTest(name, share=share):
-                    path = write_bytes(self.path(name), content[:int(len(content) * share)])
+            for fraction in (0.1, 0.5, 0.9):
+                with self.subTest(name, fraction=fraction):
+                    path = write_bytes(self.path(name), content[:int(len(content) * fraction)])
                     result = self.call_convert(path)
                     self.assertIn(result.status, (0, 1), result.err)
                     if result.status == 1:

@@ -146,7 +146,7 @@ class EveryFile(ProgramTest):
 
     def check_counts(self, path, row):
         out = self.path("out.sbf")
-        said = self.good("convert", *SOURCE_PARTS, shared(path), "-o", out).err
+        printed = self.good("convert", *SOURCE_PARTS, shared(path), "-o", out).err
         bundle = Bundle(out)
         if is_of_tetrahedra(path):
             self.check_tetrahedra(bundle, row)
@@ -155,7 +155,7 @@ class EveryFile(ProgramTest):
         self.assertEqual(len(bundle.bones), BONES.get(path, row.bones))
         self.assertEqual(len(bundle.clips), CLIPS.get(path, 0))
         expected = NOTES.get(path, set()) | (set() if bundle.bones or is_of_tetrahedra(path) else {"IMPORT_NO_RIG"})
-        self.assertEqual({code for code in codes(said) if code.startswith("IMPORT_")}, expected)
+        self.assertEqual({code for code in codes(printed) if code.startswith("IMPORT_")}, expected)
 
     def check_tetrahedra(self, bundle, row):
         level, = bundle.root.iter("level")

@@ -101,7 +101,7 @@ class SkinSections(ProgramTest):
             self.assertTrue(all(report["valid"] for report in reports))
             return min(report["volume_ratio_least"] for report in reports)
 
-        least = least_volume_of(self.calf)
+        minimum = least_volume_of(self.calf)
         for name, (bone, *boxes) in WORN.items():
             with self.subTest(name):
                 out = self.path(name + ".sbf")
@@ -113,7 +113,7 @@ class SkinSections(ProgramTest):
                 for body in worn:
                     self.assertNotIn(skin, [e.get("render_mesh") for e in body.iter("embedding")])
                 self.assertEqual([m for m in self.json_of("validate", out)["messages"] if m["severity"] == "error"], [])
-                self.assertGreater(least_volume_of(out), least - 1e-3)
+                self.assertGreater(least_volume_of(out), minimum - 1e-3)
 
     def test_none(self):
         plain = self.path("plain.sbf")

@@ -51,8 +51,8 @@ class Softness(ProgramTest):
             springs.append({"name": ear, "joints": [{"node": number[ear]}, {"node": end}]})
         glb.json["extensionsUsed"] = ["VRMC_springBone"]
         glb.json["extensions"] = {"VRMC_springBone": {"specVersion": "1.0", "springs": springs}}
-        told = self.good("convert", glb.write(self.path("swinging.glb")), "-o", self.path("swinging.sbf"), "--no-build").err
-        self.assertIn("2 on swinging chains", told)
+        reported = self.good("convert", glb.write(self.path("swinging.glb")), "-o", self.path("swinging.sbf"), "--no-build").err
+        self.assertIn("2 on swinging chains", reported)
         soft = soft_of(self.path("swinging.sbf"))
         self.assertIn("spine", soft)
         self.assertFalse({"ear.L", "ear.R"} & soft)
@@ -81,8 +81,8 @@ class Softness(ProgramTest):
             for vertex, blend in zip(vertices, blends):
                 shares[vertex] = shares.get(vertex, 0) + float(blend)
         self.assertTrue(shares)
-        for vertex, share in shares.items():
-            self.assertAlmostEqual(share, 1, delta=1e-3, msg=vertex)
+        for vertex, fraction in shares.items():
+            self.assertAlmostEqual(fraction, 1, delta=1e-3, msg=vertex)
 
     def test_choices_of_the_caller(self):
         self.assertEqual(soft_of(self.converted("none", "--rigid", "*")), set())
@@ -125,9 +125,9 @@ class Softness(ProgramTest):
 
     def test_a_machine_is_not_soft(self):
         glb, out = self.robot(), self.path("robot.sbf")
-        said = self.good("convert", glb.write(self.path("robot.glb")), "-o", out).err
-        self.assertIn("nothing is soft", said)
-        self.assertIn("of a machine", said)
+        printed = self.good("convert", glb.write(self.path("robot.glb")), "-o", out).err
+        self.assertIn("nothing is soft", printed)
+        self.assertIn("of a machine", printed)
         self.assertEqual(self.json_of("info", out)["sections"], [])
         report = self.json_of("run", out, "--seconds", "2", "--drive", "0.3,0")
         self.assertTrue(report["valid"])
@@ -151,8 +151,8 @@ class Softness(ProgramTest):
         points, triangles = box((-0.1, 1.9, -0.1), (0.1, 2.1, 0.1))
         hair = glb.mesh(points, triangles, [(joint, 0, 0, 0)] * len(points), [(1, 0, 0, 0)] * len(points))
         glb.node("hair", mesh=hair, skin=0)
-        said = self.good("convert", glb.write(self.path("yeti.glb")), "-o", out).err
-        self.assertNotIn("EMBEDDING_NO_BODY", said)
+        printed = self.good("convert", glb.write(self.path("yeti.glb")), "-o", out).err
+        self.assertNotIn("EMBEDDING_NO_BODY", printed)
         self.assertIn("hair", [m["name"] for m in self.json_of("info", out)["render_meshes"]])
         self.assertNotIn("head", soft_of(out))
 

@@ -55,10 +55,10 @@ class TailShape(ProgramTest):
         for bundle, most_error in ((flesh, of_flesh), (stiffer, error)):
             for found in (self.worst(bundle, "--hold", "--raise", "0.5"), self.shaken(bundle)):
                 self.assertGreaterEqual(len(found), 3)
-                for name, (shape, least, most) in found.items():
+                for name, (shape, minimum, maximum) in found.items():
                     self.assertLess(shape, most_error, name)
-                    self.assertGreater(least, 0.99, name)
-                    self.assertLess(most, 1.01, name)
+                    self.assertGreater(minimum, 0.99, name)
+                    self.assertLess(maximum, 1.01, name)
                     if bundle == stiffer:
                         worst = max(worst, shape)
         loose = self.shaken(built_of_modulus(self.folder, "loose.sbf", flesh, 8e4, "--no-calibration"))

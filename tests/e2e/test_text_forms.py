@@ -67,31 +67,31 @@ class Skeletons(ProgramTest):
         self.assertEqual(self.skins(Tube(0, -1, named="tip"), Tube(1, 3, ("low", "high"), named="root"), last_first=True),
                          [(-1, {-1}), (3, {3})])
 
-    def test_what_cannot_be_told_apart_is_refused(self):
-        for skeletons, said in ((0, "does not say which one it uses"), (2, "is used with several")):
+    def test_ambiguous_names_are_rejected(self):
+        for skeletons, printed in ((0, "does not say which one it uses"), (2, "is used with several")):
             with self.subTest(skeletons):
                 source = collada_files.write(self.path("in.dae"), (Tube(0, -1, skeletons=skeletons), Tube(1, 3)))
                 result = call("convert", source, "-o", self.path("out.sbf"))
                 self.assertEqual(result.status, 1)
                 self.assertIn("IMPORT_REFUSED", result.err)
-                self.assertIn(said, result.err)
+                self.assertIn(printed, result.err)
                 self.assertFalse(os.path.exists(self.path("out.sbf")))
 
 
 class NoNumbers(ProgramTest):
-    def refused(self, name, text, said):
+    def refused(self, name, text, printed):
         result = call("convert", write_bytes(self.path(name), text.encode()), "-o", self.path("out.sbf"))
-        self.assertEqual(result.status, 1, said)
+        self.assertEqual(result.status, 1, printed)
         self.assertIn("IMPORT_NOT_FINITE", result.err)
-        self.assertIn(said, result.err)
+        self.assertIn(printed, result.err)
         self.assertFalse(os.path.exists(self.path("out.sbf")))
 
     def test_fbx(self):
         self.good("convert", write_bytes(self.path("in.fbx"), FBX.format("0.5").encode()), "--no-build", "-o", self.path("x.sbf"))
         for number in NO_NUMBERS:
             with self.subTest(number):
-                said = f"line 10 has {number.lstrip('-')}" if "#" in number else "is infinite or NaN"
-                self.refused("in.fbx", FBX.format(number), said)
+                printed = f"line 10 has {number.lstrip('-')}" if "#" in number else "is infinite or NaN"
+                self.refused("in.fbx", FBX.format(number), printed)
 
     def test_collada(self):
         with open(collada_files.write(self.path("whole.dae"), (Tube(0, 0),)), encoding="utf-8") as stream:

@@ -61,20 +61,20 @@ class Tuned(ProgramTest):
     def test_the_file_holds_what_was_measured(self):
         result = call("validate", os.path.join(self.place, "all.sbf"))
         self.assertEqual(result.status, 0, result.out + result.err)
-        said = self.all["levels"]
+        printed = self.all["levels"]
         for levels in self.levels_of("all.sbf"):
-            self.assertEqual(len(levels), len(said))
-            for level, of in zip(levels, said):
+            self.assertEqual(len(levels), len(printed))
+            for level, of in zip(levels, printed):
                 self.assertAlmostEqual(level["motion_error"], of["motion_error_m"], delta=1e-6 * of["motion_error_m"])
                 self.assertAlmostEqual(level["motion_error_rms"], of["motion_error_rms_m"], delta=1e-6)
-        for of in said:
+        for of in printed:
             worst = max(of["error"]["most_m"], of["verified"]["most_m"])
             self.assertGreaterEqual(of["motion_error_m"], 1.25 * worst)
         text = read_text(os.path.join(self.place, "all.sbf"))
         for words in ('id="tune"', "measure=most", "<measured ", 'motion_error="'):
             self.assertIn(words, text)
-        costs = [sum(levels[i]["cost"] for levels in self.levels_of("all.sbf")) for i in range(len(said))]
-        for cost, of in zip(costs, said):
+        costs = [sum(levels[i]["cost"] for levels in self.levels_of("all.sbf")) for i in range(len(printed))]
+        for cost, of in zip(costs, printed):
             self.assertAlmostEqual(cost, of["element_visits"], delta=1e-5 * cost)
 
     def test_the_first_level_runs_as_it_was_chosen(self):
@@ -88,8 +88,8 @@ class Tuned(ProgramTest):
 
     def test_no_level_is_one_that_run_calls_biased(self):
         for number in range(len(self.all["levels"])):
-            said = self.good("run", os.path.join(self.place, "all.sbf"), "--seconds", "0.1", "--level", number).err
-            self.assertNotIn("SCHEME_BIASED", said)
+            printed = self.good("run", os.path.join(self.place, "all.sbf"), "--seconds", "0.1", "--level", number).err
+            self.assertNotIn("SCHEME_BIASED", printed)
         refused = [trial for trial in self.all["trials"] if trial["outcome"] == "refused"]
         self.assertTrue(any("is stepped by" in trial["error"]["why"] for trial in refused), refused[:3])
 
@@ -144,7 +144,7 @@ class Tuned(ProgramTest):
         for text in ("8 %", "101%", "%", "-1%"):
             self.assertIn("metres or a percentage", self.fails(2, "tune", self.file, "-o", self.path("x.sbfz"), "--error", text))
 
-    def test_without_a_goal_one_percent_of_what_is_seen_is_asked_for(self):
+    def test_the_default_goal_is_one_percent_of_the_visible_size(self):
         result = call("tune", self.file, "-o", self.path("usual.sbf"), *GRID, "--format", "json", "--nearest")
         self.assertEqual(result.status, 0, result.err)
         report = json.loads(result.out)
@@ -201,7 +201,7 @@ class Tuned(ProgramTest):
         self.good("diff", rigid, out)
         self.assertEqual(self.json_of("tune", rigid, "-o", out)["verdict"], "met")
 
-    def test_what_is_beaten_is_not_looked_at_to_its_end(self):
+    def test_candidates_worse_than_the_best_are_stopped_early(self):
         visits = [trial["visits"] for trial in self.all["trials"]]  # none of what is refused, which stands behind
         tried = [trial["visits"] for trial in self.all["trials"] if trial["outcome"] != "refused"]
         self.assertEqual(visits, sorted(tried) + [None] * (len(visits) - len(tried)))
@@ -213,12 +213,12 @@ class Tuned(ProgramTest):
             self.assertTrue(better, trial)
             self.assertFalse(trial["on_front"])
 
-    def test_it_says_how_long_it_takes(self):
+    def test_it_prints_the_time_it_takes(self):
         result = call("tune", self.file, "-o", os.path.join(self.place, "timed.sbfz"), *SMALL, "--quick", *NEAREST_OF_ALL)
         self.assertEqual(result.status, 0, result.err)
         self.assertRegex(result.err, r"info: 3 ways to step 3 meshes, against \d+ elements: (\d+ to )?\d+ (seconds?|minutes) on")
 
-    def test_a_missing_folder_is_told_before_the_work(self):
+    def test_a_missing_folder_is_reported_before_the_work(self):
         out = os.path.join(self.place, "none", "out.sbfz")
         result = call("tune", self.file, "-o", out)
         self.assertEqual(result.status, 2)
@@ -241,7 +241,7 @@ class Tuned(ProgramTest):
             self.assertEqual(same.status, 0, same.out)
             self.assertEqual(sorted(os.listdir(folder)), ["one.sbfz", "the second.sbfz", "tuned"])
 
-    def test_bad_calls_and_files_are_told(self):
+    def test_bad_calls_and_files_are_reported(self):
         out = os.path.join(self.place, "bad.sbfz")
         for arguments in ((self.file,), (self.file, "-o", out, "--error", "-1"), (self.file, "-o", out, "--elements", "x"),
                           (self.file, "-o", out, "--measure", "mean"), (os.path.join(self.place, "none.sbf"), "-o", out)):

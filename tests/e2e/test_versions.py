@@ -59,7 +59,7 @@ class Versions(ProgramTest):
     def test_what_a_newer_version_adds_is_left_out_and_reported(self):
         newer = self.text("1.99", ' gloss="2"', "<glow><x>1</x></glow>", '<fog density="2"/>')
         self.both_take(newer, True, "VERSION_NEWER")
-        said = "has version 1.99, this library knows 1.4: 3 parts of it were left out, the first is " \
+        printed = "has version 1.99, this library knows 1.4: 3 parts of it were left out, the first is " \
                "/sbf/materials/material[1]/@gloss"
         for verb, *options in (("unpack", "-o", self.path("out.sbf")), ("pack", "-o", self.path("out.sbfz")),
                                ("build", "-o", self.path("built.sbf")), ("convert", "-o", self.path("converted.sbf")),
@@ -67,10 +67,10 @@ class Versions(ProgramTest):
             with self.subTest(verb):
                 result = call(verb, newer, *options)
                 self.assertEqual(result.status, 0, result.err)
-                self.assertIn(said, result.err)
+                self.assertIn(printed, result.err)
                 self.assertIn("VERSION_NEWER", result.err)
         for verb in ("chart", "tune"):  # which find nothing to run in it, but say so first
-            self.assertIn(said, call(verb, newer, "-o", self.path(verb + ".sbf")).err)
+            self.assertIn(printed, call(verb, newer, "-o", self.path(verb + ".sbf")).err)
         self.assertIn(b'<material id="a"/>', read_bytes(self.path("out.sbf")))
         self.assertEqual(call("validate", "--strict", newer).status, 1)
         self.assertNotIn("VERSION_NEWER", call("validate", self.text("1.99")).err)

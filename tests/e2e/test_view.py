@@ -179,19 +179,19 @@ f 4 1 5 8
 
     def test_calls_that_are_wrong_say_so(self):
         at = ("view", self.file, *SMALL)
-        said = self.fails(2, *at, "--frames", "1", environment={**QUIET, "DISPLAY": ":999"})
-        self.assertIn("display", said)
+        printed = self.fails(2, *at, "--frames", "1", environment={**QUIET, "DISPLAY": ":999"})
+        self.assertIn("display", printed)
         nowhere = {name: "" for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "XDG_RUNTIME_DIR")}
-        said = self.fails(2, *at, "--frames", "1", environment=nowhere)  # not on a screen that SDL makes up
-        self.assertIn("display", said)
+        printed = self.fails(2, *at, "--frames", "1", environment=nowhere)  # not on a screen that SDL makes up
+        self.assertIn("display", printed)
         self.fails(2, *at, "--frames", "0", environment=self.environment)
         self.fails(2, *at, "--frames", "1", "--input", self.path("none.txt"), environment=self.environment)
         self.fails(2, *at, "--frames", "1", "--shot", self.path("no/folder.png"), environment=self.environment)
         for wrong in ("x", "1 jump", "1 down Nokey", "5 tap W\n4 tap W", "1 press 2 0", "1 press 0.5", "1 wheel x", "1 shot",
                       "1 release now", "1 tap W" + " " * 2000):
             script = write_bytes(self.path("wrong.txt"), b"# first\n" + wrong.encode() + b"\n")
-            said = self.fails(1, *at, "--frames", "1", "--input", script, environment=self.environment)
-            self.assertRegex(said, r"wrong\.txt, line \d")
+            printed = self.fails(1, *at, "--frames", "1", "--input", script, environment=self.environment)
+            self.assertRegex(printed, r"wrong\.txt, line \d")
         self.assertFalse(os.path.exists(self.path("no")))
 
     @unittest.skipUnless(shutil.which("xdotool"), "there is no xdotool to press keys with")
@@ -230,9 +230,9 @@ f 4 1 5 8
 
 class WithoutDisplay(ProgramTest):
     def test_help_names_the_keys(self):
-        said = self.good("view", "--help").out
+        printed = self.good("view", "--help").out
         for word in ("W A S D", "--input", "--shot"):
-            self.assertTrue(re.search(re.escape(word), said), word)
+            self.assertTrue(re.search(re.escape(word), printed), word)
 
 
 if __name__ == "__main__":

@@ -55,8 +55,8 @@ class Vrm(ProgramTest):
         return Bundle(out), result.err
 
     def test_springs_of_1_0_become_chains(self):
-        bundle, told = self.converted(avatar_1(self.path("avatar.vrm")))
-        self.assertNotIn("IMPORT_SPRING", told)
+        bundle, reported = self.converted(avatar_1(self.path("avatar.vrm")))
+        self.assertNotIn("IMPORT_SPRING", reported)
         self.assertEqual(sorted(bundle.chains), ["hair", "lock"])
         self.assertEqual(bundle.bones_of(bundle.chains["hair"]), [f"hair{i}" for i in range(5)])
         spacing = numbers(bundle.chains["hair"], "spacing")
@@ -84,8 +84,8 @@ class Vrm(ProgramTest):
         self.assertEqual([float(c.get("radius", 0)) for c in bundle.colliders], [0.11, 0.14, 0.55, 0.5, 0])
 
     def test_secondary_animation_of_0_x_becomes_chains(self):
-        bundle, told = self.converted(avatar_0(self.path("avatar.vrm")))
-        self.assertNotIn("IMPORT_", told)
+        bundle, reported = self.converted(avatar_0(self.path("avatar.vrm")))
+        self.assertNotIn("IMPORT_", reported)
         self.assertEqual(bundle.bones_of(bundle.chains["hair"]), [f"hair{i}" for i in range(5)])
         self.assertAlmostEqual(numbers(bundle.chains["hair"], "spacing")[-1], 0.07, 6)  # a point beyond the last bone
         self.assertAlmostEqual(bundle.values("hair", "stiffness")[0], -0.4 * 60 * math.log(0.7) / 0.3, 3)
@@ -109,7 +109,7 @@ class Vrm(ProgramTest):
 
     def test_the_humanoid_gives_legs_arms_and_head(self):
         for plain in (True, False):  # names that say nothing
-            bundle, told = self.converted(avatar_1(self.path(f"avatar{plain}.vrm"), plain))
+            bundle, reported = self.converted(avatar_1(self.path(f"avatar{plain}.vrm"), plain))
             names = {node: name for name, node in Avatar(plain).node.items()}
             bone = {found.get("id"): names[int(found.get("name")[1:])] if not plain else found.get("name") for found in bundle.bones}
             gait = bundle.root.find("gait")
@@ -118,7 +118,7 @@ class Vrm(ProgramTest):
             self.assertEqual(bone[gait.find("head_turn").get("bone")], "head")
             posed = {bone[key.get("bone")] for key in bundle.root.find(f"poses/pose[@id='{gait.get('rest_pose')}']")}
             self.assertTrue({"arm.L", "arm.R"} <= posed, posed)
-            self.assertIn("the file names its legs", told)
+            self.assertIn("the file names its legs", reported)
 
     def test_springs_win_over_a_proposed_tail(self):
         avatar = Avatar(tail=True)
@@ -131,7 +131,7 @@ class Vrm(ProgramTest):
         self.assertEqual(list(bundle.chains), ["tail"])
         self.good("validate", "--strict", self.path("tail.vrm.sbf"))
 
-    def test_malformed_parts_are_left_out_and_told(self):
+    def test_malformed_parts_are_left_out_and_reported(self):
         def joint(index, **values):
             return lambda extension, _: extension["springs"][0]["joints"][index].update(values)
 
@@ -141,7 +141,7 @@ class Vrm(ProgramTest):
         def spring(**values):
             return lambda extension, _: extension["springs"][0].update(values)
 
-        def share(extension, _):
+        def fraction(extension, _):
             extension["springs"].append({"joints": extension["springs"][0]["joints"][1:3]})
 
         def missing(extension, _):
@@ -155,7 +155,7 @@ class Vrm(ProgramTest):
 
         both, lock, hair = ["hair", "lock"], ["lock"], ["hair"]
         cases = (("a node that is not there", joint(1, node=999), lock), ("a negative node", joint(1, node=-1), lock), ("no node", missing, lock),
-                 ("no chain", reverse, lock), ("a cycle", repeat, lock), ("a shared joint", share, both),
+                 ("no chain", reverse, lock), ("a cycle", repeat, lock), ("a shared joint", fraction, both),
                  ("one joint", lambda e, _: e["springs"][0].update(joints=e["springs"][0]["joints"][:1]), lock),
                  ("joints that are no list", spring(joints=3), lock), ("a negative radius", joint(1, hitRadius=-1), both),
                  ("too much drag", joint(1, dragForce=7), both), ("a text", joint(1, stiffness="much"), both),
@@ -169,23 +169,23 @@ class Vrm(ProgramTest):
         for what, change, kept in cases:
             with self.subTest(what):
                 path = avatar_1(self.path("bad.vrm"), change=change)
-                bundle, told = self.converted(path)
-                self.assertIn("IMPORT_SPRING", told)
+                bundle, reported = self.converted(path)
+                self.assertIn("IMPORT_SPRING", reported)
                 self.assertEqual(sorted(bundle.chains), sorted(kept))
                 self.good("validate", path + ".sbf")
                 run = self.json_of("run", path + ".sbf", "--seconds", "0.2")
                 self.assertTrue(run["valid"])
         self.assertEqual(hair, ["hair"])
 
-    def test_malformed_parts_of_0_x_are_left_out_and_told(self):
+    def test_malformed_parts_of_0_x_are_left_out_and_reported(self):
         cases = (("a bone that is not there", lambda g, c, a: g[0].update(bones=[999, a.node["hair0"]])), ("a bone of two groups", lambda g, c, a: g[1].update(bones=[a.node["hair1"]])),
                  ("no such group", lambda g, c, a: g[0].update(colliderGroups=[7])), ("a collider nowhere", lambda g, c, a: c[0].update(node=-4)),
                  ("a negative radius", lambda g, c, a: c[0]["colliders"][0].update(radius=-2)), ("a text", lambda g, c, a: g[0].update(dragForce="x")),
                  ("no numbers", lambda g, c, a: c[0]["colliders"][0].update(offset=[1])))
         for what, change in cases:
             with self.subTest(what):
-                bundle, told = self.converted(avatar_0(self.path("bad.vrm"), change))
-                self.assertIn("IMPORT_SPRING", told)
+                bundle, reported = self.converted(avatar_0(self.path("bad.vrm"), change))
+                self.assertIn("IMPORT_SPRING", reported)
                 self.assertIn("hair", bundle.chains)
                 self.good("validate", self.path("bad.vrm.sbf"))
 
@@ -283,9 +283,9 @@ class Vrm(ProgramTest):
 <chain id="again" name="again"><bones>1 2</bones></chain></chains>
 <followers><follower id="wag" name="wag" bone="ear" frequency="3" damping_ratio="0.4"/><follower id="none" bone="nose"/>
 <follower id="squash" bone="t0" channel="squash"/></followers></sbf>""")
-        told = self.good("export", self.path("bones.sbf"), "-o", self.path("bones.glb")).err
-        self.assertIn("chains: 1", told)
-        self.assertIn("followers: 2", told)
+        reported = self.good("export", self.path("bones.sbf"), "-o", self.path("bones.glb")).err
+        self.assertIn("chains: 1", reported)
+        self.assertIn("followers: 2", reported)
         glb = Glb(self.path("bones.glb"))
         by_name = {spring["name"]: spring["joints"] for spring in glb.json["extensions"]["VRMC_springBone"]["springs"]}
         self.assertEqual({name: [glb.nodes[j["node"]]["name"] for j in found] for name, found in by_name.items()},

@@ -10,18 +10,18 @@ from vtu_files import CELLS, POINTS, every_way, vtu
 class Vtu(ProgramTest):
     def grid(self, content):
         path = write_bytes(self.path("a.vtu"), content)
-        said = self.good("convert", "--no-build", path, "-o", self.path("out.sbf")).err
+        printed = self.good("convert", "--no-build", path, "-o", self.path("out.sbf")).err
         level, = Bundle(self.path("out.sbf")).root.iter("level")
         points = rows([float(n) for n in level.find("positions").text.split()], 3)
-        return points, rows([int(n) for e in level.iter("tetrahedra") for n in e.text.split()], 4), said
+        return points, rows([int(n) for e in level.iter("tetrahedra") for n in e.text.split()], 4), printed
 
     def test_every_way_gives_the_same_grid(self):
         for name, content in every_way():
             with self.subTest(name):
-                points, tetrahedra, said = self.grid(content)
+                points, tetrahedra, printed = self.grid(content)
                 self.assertEqual(points, POINTS)
                 self.assertEqual([sorted(t) for t in tetrahedra], [[0, 1, 2, 3], [1, 2, 3, 4]])
-                self.assertIn("1 elements that are not tetrahedra", said)
+                self.assertIn("1 elements that are not tetrahedra", printed)
 
     def test_pieces_are_joined(self):
         moved = [(x + 5, y, z) for x, y, z in POINTS]
@@ -46,8 +46,8 @@ class Vtu(ProgramTest):
 
     def test_cut_files(self):
         for _, content in every_way():
-            for share in (0.3, 0.6, 0.9):
-                path = write_bytes(self.path("cut.vtu"), content[:int(len(content) * share)])
+            for fraction in (0.3, 0.6, 0.9):
+                path = write_bytes(self.path("cut.vtu"), content[:int(len(content) * fraction)])
                 result = call("convert", "--no-build", path, "-o", self.path("cut.sbf"))
                 self.assertIn(result.status, (0, 1), result.err)
                 if result.status:

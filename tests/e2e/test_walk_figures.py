@@ -96,7 +96,7 @@ class Walk:
                                                        cache.place(300, section.first + i)))
                 self.assertLess(moved, 1e-3, section.name)
 
-    def test_the_skin_departs_when_it_starts_and_stops_and_settles(self):
+    def test_the_skin_overshoots_at_start_and_stop_and_comes_to_rest(self):
         poses_out, cache_out = self.path("p.csv"), self.path("s.pc2")
         script = write_bytes(self.path("s.txt"), START_AND_STOP)
         self.json_of("run", self.file, "--seconds", END / 60, "--script", script, "--pose", poses_out, "--cache",

@@ -74,11 +74,11 @@ def measure(path, walk, leg, *more):
 
 def failures(report, walk, leg, bounds=None):
     """What a walk's measures miss of what was asked for, as texts. `bounds` replaces some of them."""
-    most = {"stance_slip": min(SLIP_M, SLIP_SHARE * leg), "penetration": PENETRATION_M, "skate_ratio": 0,
+    maximum = {"stance_slip": min(SLIP_M, SLIP_SHARE * leg), "penetration": PENETRATION_M, "skate_ratio": 0,
             "knee_speed_step": KNEE_DEGREES, "opposite_feet_in_air": 0, "limit_excess": LIMIT_DEGREES,
             "body_speed_step": BODY_SHARE * leg, "body_turn_step": BODY_DEGREES, **(bounds or {})}
-    balance = most.pop("support_margin", 0)
-    missed = [f"{walk.name}: {key} {report[key]:.6g}, at most {bound:.6g}" for key, bound in most.items()
+    balance = maximum.pop("support_margin", 0)
+    missed = [f"{walk.name}: {key} {report[key]:.6g}, at most {bound:.6g}" for key, bound in maximum.items()
               if report[key] > bound]
     if walk.slow and report.get("support_margin", 0) < balance:
         missed.append(f"{walk.name}: support_margin {report['support_margin']:.6g}, at least {balance:.6g}")

@@ -63,7 +63,7 @@ class Crowd(unittest.TestCase):
         self.assertTrue(any(one[0] > one[2] + 60 for one in colours))  # red: soft
         self.assertTrue(any(one[2] > one[0] + 30 for one in colours))  # blue: bones
 
-    def test_who_meets_others_is_soft_and_coarse_where_it_may(self):
+    def test_colliding_characters_are_soft_and_may_be_coarse(self):
         made = subprocess.run([SBFMT, "build", self.lizard, "--springs", "tetrahedra", "--elements", "200", "--levels", "4", "-o",
                                os.path.join(self.folder, "lattices.sbfz")], capture_output=True, text=True, check=False)
         self.assertEqual(made.returncode, 0, made.stderr)

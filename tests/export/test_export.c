@@ -36,7 +36,7 @@ static void keep(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
-START_TEST(what_is_left_out_is_said)
+START_TEST(omissions_are_reported)
 {
   sbf_asset *asset = bar();
   sbf_diagnostic warning = {0};
@@ -181,7 +181,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("export");
   TCase *c = tcase_create("forms");
   tcase_add_test(c, the_2012_dialect_goes_round);
-  tcase_add_test(c, what_is_left_out_is_said);
+  tcase_add_test(c, omissions_are_reported);
   tcase_add_test(c, nothing_to_write_and_unknown_endings_are_errors);
   tcase_add_test(c, what_moves_with_its_bones_needs_no_offsets);
   tcase_add_test(c, mjcf_is_turned_and_nests_what_joints_hold);

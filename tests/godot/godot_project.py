@@ -105,17 +105,17 @@ class Godot:
         return subprocess.run(command, env=environment, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                               timeout=550)
 
-    def passes(self, script, *words, allowed=(), display="", said=""):
+    def passes(self, script, *words, allowed=(), display="", expected_text=""):
         """Whether a script of this folder ends with status 0, Godot complains of nothing but what is `allowed`, and it says once what is to
-        be `said`. With a display it draws, by OpenGL on the processor."""
+        be `expected_text`. With a display it draws, by OpenGL on the processor."""
         self.copy(os.path.join(HERE, "checks.gd"), os.path.join(HERE, f"{script}.gd"))
         seen = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if display else ["--headless"]
         settings = {"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"} if display else {}
         done = self.run(*seen, "--fixed-fps", "60", "--script", f"{script}.gd", "--", *words, **settings)
         good = self.is_good(done, allowed)
-        times = done.stdout.count(said) if said else 1
+        times = done.stdout.count(expected_text) if expected_text else 1
         if times != 1:
-            print(f"FAILED: said {times} times: {said}")
+            print(f"FAILED: said {times} times: {expected_text}")
         return good and times == 1
 
     @staticmethod

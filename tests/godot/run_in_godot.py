@@ -208,10 +208,10 @@ def refused(godot):
     godot.copy(os.path.join(HERE, "checks.gd"), os.path.join(HERE, "refused.gd"))
     done = godot.run("--headless", "--fixed-fps", "60", "--script", "refused.gd")
     passed = godot.is_good(done, ("SoftCharacter3D#",))
-    for said in REFUSALS:
-        times = sum(said in line for line in done.stdout.splitlines() if "SoftCharacter3D#" in line)
+    for expected_text in REFUSALS:
+        times = sum(expected_text in line for line in done.stdout.splitlines() if "SoftCharacter3D#" in line)
         if times != 1:
-            print(f"FAILED: said {times} times: {said}")
+            print(f"FAILED: said {times} times: {expected_text}")
             passed = False
     return passed
 
@@ -264,14 +264,14 @@ def imported(godot, program):
     shutil.copy(os.path.join(samples, "jelly.sbf"), godot.folder)
     shutil.copytree(os.path.join(samples, "textures"), os.path.join(godot.folder, "textures"))
     for name in ("lizard", "stiffer"):
-        told = native(program, godot.folder, name)
-        states.add(told["state_hash"])
+        reported = native(program, godot.folder, name)
+        states.add(reported["state_hash"])
         subprocess.run([program, "unpack", os.path.join(godot.folder, name + ".sbfz"), "-o", text], check=True, capture_output=True)
         os.remove(os.path.join(godot.folder, name + ".sbfz"))
         for scene in ("walker.glb", "scene.glb"):
             subprocess.run([program, "pack", text, "-o", os.path.join(godot.folder, scene)], check=True, capture_output=True)
         godot.write("walker.glb.import", CHOSEN)
-        passed = godot.is_good(godot.run("--headless", "--import")) and godot.passes("imported", told["state_hash"]) and passed
+        passed = godot.is_good(godot.run("--headless", "--import")) and godot.passes("imported", reported["state_hash"]) and passed
     if len(states) != 2:
         print("FAILED: the stiffer lizard is no other")
         return False
@@ -391,60 +391,60 @@ def main():
     parser.add_argument("--program", required=True)
     parser.add_argument("--keep", default="", help="where to keep the picture that a case draws")
     parser.add_argument("case")
-    asked = parser.parse_args()
-    with Godot(asked.root, asked.godot, asked.build, asked.addon) as godot:
-        packed(asked.program, godot.folder)
-        if asked.case == "values":
-            told = native(asked.program, godot.folder)
-            passed = godot.passes("values", told["state_hash"], str(told["distance"]), str(sum(told["steps_taken"].values())))
-        elif asked.case in ("ground", "surroundings", "bodies", "push", "rest", "meet", "loose", "soft", "found"):
+    arguments = parser.parse_args()
+    with Godot(arguments.root, arguments.godot, arguments.build, arguments.addon) as godot:
+        packed(arguments.program, godot.folder)
+        if arguments.case == "values":
+            reported = native(arguments.program, godot.folder)
+            passed = godot.passes("values", reported["state_hash"], str(reported["distance"]), str(sum(reported["steps_taken"].values())))
+        elif arguments.case in ("ground", "surroundings", "bodies", "push", "rest", "meet", "loose", "soft", "found"):
             passed = True
-            if asked.case in ("push", "rest", "meet", "loose", "soft", "found"):
-                cube(asked.program, godot.folder)
+            if arguments.case in ("push", "rest", "meet", "loose", "soft", "found"):
+                cube(arguments.program, godot.folder)
             for engine in ENGINES:
                 godot.set_engine(engine)
-                passed = godot.passes(asked.case) and passed
-        elif asked.case == "convex":
+                passed = godot.passes(arguments.case) and passed
+        elif arguments.case == "convex":
             passed = True
             for engine in ENGINES:
                 godot.set_engine(engine)
-                passed = godot.passes("convex", allowed=("Failed to build convex hull",), said="SoftCharacter3D passes through") and passed
-        elif asked.case == "node":
-            passed = (godot.passes("node", allowed=("SoftCharacter3D#",), said="there is no ground") and
-                      godot.passes("node", allowed=("SoftCharacter3D#",), said="more than 256 shapes"))
-        elif asked.case == "signals":
-            subprocess.run([asked.program, "build", BAR, "-o", os.path.join(godot.folder, "bar.sbfz"), "--elements", "600"], check=True, capture_output=True)
+                passed = godot.passes("convex", allowed=("Failed to build convex hull",), expected_text="SoftCharacter3D passes through") and passed
+        elif arguments.case == "node":
+            passed = (godot.passes("node", allowed=("SoftCharacter3D#",), expected_text="there is no ground") and
+                      godot.passes("node", allowed=("SoftCharacter3D#",), expected_text="more than 256 shapes"))
+        elif arguments.case == "signals":
+            subprocess.run([arguments.program, "build", BAR, "-o", os.path.join(godot.folder, "bar.sbfz"), "--elements", "600"], check=True, capture_output=True)
             passed = godot.passes("signals")
-        elif asked.case == "animation":
-            animated(asked.program, godot.folder)
-            passed = godot.passes("animation", allowed=("SoftCharacter3D#",), said="pose_source is not a Skeleton3D")
-        elif asked.case == "refused":
-            animated(asked.program, godot.folder)
-            cube(asked.program, godot.folder)
+        elif arguments.case == "animation":
+            animated(arguments.program, godot.folder)
+            passed = godot.passes("animation", allowed=("SoftCharacter3D#",), expected_text="pose_source is not a Skeleton3D")
+        elif arguments.case == "refused":
+            animated(arguments.program, godot.folder)
+            cube(arguments.program, godot.folder)
             passed = refused(godot)
-        elif asked.case == "damaged":
+        elif arguments.case == "damaged":
             with open(os.path.join(godot.folder, "lizard.sbfz"), "rb") as file:
                 whole = file.read()
             for name, kept in (("cut.sbfz", whole[:len(whole) // 2]), ("empty.sbfz", b""), ("text.sbfz", b"<soft_body_format/>")):
                 with open(os.path.join(godot.folder, name), "wb") as file:
                     file.write(kept)
             passed = godot.passes("damaged", allowed=("res://", "play: ", "Failed loading resource", "Error loading resource"))
-        elif asked.case == "page":
-            passed = page(godot, asked.program)
-        elif asked.case == "exported":
-            passed = exported(godot, asked.program)
-        elif asked.case == "imported":
-            passed = imported(godot, asked.program)
-        elif asked.case == "editor":
+        elif arguments.case == "page":
+            passed = page(godot, arguments.program)
+        elif arguments.case == "exported":
+            passed = exported(godot, arguments.program)
+        elif arguments.case == "imported":
+            passed = imported(godot, arguments.program)
+        elif arguments.case == "editor":
             passed = editor(godot)
-        elif asked.case == "drawn":
-            passed = drawn(godot, asked.program, asked.keep)
-        elif asked.case == "fresh_demo":
+        elif arguments.case == "drawn":
+            passed = drawn(godot, arguments.program, arguments.keep)
+        elif arguments.case == "fresh_demo":
             passed = fresh_demo(godot)
-        elif asked.case == "demo":
-            passed = demo(godot, asked.program, asked.keep)
+        elif arguments.case == "demo":
+            passed = demo(godot, arguments.program, arguments.keep)
         else:
-            passed = godot.passes(asked.case)
+            passed = godot.passes(arguments.case)
     sys.exit(0 if passed else 1)
 
 

@@ -190,7 +190,7 @@ START_TEST(without_bones_nothing_moves)
 END_TEST
 
 /* Flat and endless transforms cost their bone's keys, with a word, and nothing else. */
-START_TEST(keys_that_cannot_be_told_are_left_out)
+START_TEST(unreadable_keys_are_left_out)
 {
   static const sbf_vec3 far_away[2] = {{0, 0, 0}, {3e38f, 0, 0}};
   sbfi_scene scene;
@@ -277,7 +277,7 @@ int main(void) {
   tcase_add_test(tests, tracks_are_of_frames_in_their_parents);
   tcase_add_test(tests, tracks_are_as_short_as_they_can_be);
   tcase_add_test(tests, without_bones_nothing_moves);
-  tcase_add_test(tests, keys_that_cannot_be_told_are_left_out);
+  tcase_add_test(tests, unreadable_keys_are_left_out);
   tcase_add_loop_test(
       tests, real_clips_say_what_their_files_say, 0, sizeof known_clips / sizeof *known_clips);
   suite_add_tcase(suite, tests);

@@ -58,7 +58,7 @@ static sbf_vec3 middle_of(const sbf_render_mesh *mesh) {
 }
 
 /* Whichever way the file has it look, and whether names or feet tell. */
-START_TEST(it_looks_along_z)
+START_TEST(characters_face_z)
 {
   for (int reported = 0; reported < 3; reported++)
     for (uint32_t quarters = 0; quarters < 4; quarters++) {
@@ -161,7 +161,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("convert_facing");
   TCase *tests = tcase_create("convert_facing");
-  tcase_add_test(tests, it_looks_along_z);
+  tcase_add_test(tests, characters_face_z);
   tcase_add_test(tests, head_behind_all_feet_turns_a_quadruped);
   tcase_add_test(tests, what_need_not_walk_stays);
   suite_add_tcase(suite, tests);

@@ -39,7 +39,7 @@ static void count_notes(void *user, const sbf_diagnostic *note) {
 }
 
 /* A rig without legs is told of, and gets no gait. */
-START_TEST(what_has_no_legs_is_told)
+START_TEST(rigs_without_legs_are_reported)
 {
   sbfi_scene scene;
   converted c;
@@ -81,7 +81,7 @@ int main(void) {
   Suite *suite = suite_create("convert_gait");
   TCase *tests = tcase_create("convert_gait");
   tcase_add_loop_test(tests, a_gait_proposed_later_is_the_same, 0, 2);
-  tcase_add_test(tests, what_has_no_legs_is_told);
+  tcase_add_test(tests, rigs_without_legs_are_reported);
   tcase_add_test(tests, ids_that_are_taken_stay_their_owners);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

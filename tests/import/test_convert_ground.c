@@ -60,7 +60,7 @@ START_TEST(a_mesh_too_far_from_the_origin_is_reported)
 END_TEST
 
 /* A sole that is a little off, as on a soft floor, is no reason to move a file's vertices. */
-START_TEST(who_stands_stays)
+START_TEST(standing_characters_stay)
 {
   sbfi_scene scene;
   converted c;
@@ -119,7 +119,7 @@ START_TEST(clips_go_along)
 END_TEST
 
 /* Legs are found about the rig's own middle. A small offset is no reason to move vertices. */
-START_TEST(who_stands_beside_the_origin_is_moved_there)
+START_TEST(characters_beside_the_origin_are_moved_there)
 {
   static const float times[2] = {0, 1};
   /* x, z, and z of the hips then: the middle of all bones is 1/32 m before them */
@@ -186,11 +186,11 @@ int main(void) {
   Suite *suite = suite_create("convert_ground");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, walkers_are_moved_onto_the_ground);
-  tcase_add_test(tests, who_stands_stays);
+  tcase_add_test(tests, standing_characters_stay);
   tcase_add_loop_test(tests, a_mesh_too_far_from_the_origin_is_reported, 0, 6);
   tcase_add_test(tests, what_does_not_walk_stays);
   tcase_add_test(tests, clips_go_along);
-  tcase_add_test(tests, who_stands_beside_the_origin_is_moved_there);
+  tcase_add_test(tests, characters_beside_the_origin_are_moved_there);
   tcase_add_test(tests, what_has_no_middle_stays);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -127,7 +127,7 @@ START_TEST(level_pins_keep_weights)
 }
 END_TEST
 
-START_TEST(what_is_not_there_is_said)
+START_TEST(missing_parts_are_reported)
 {
   const sbf_convert_pin wrong[] = {{"Tip", NULL}, {"tip", "hand"}};
   for (int i = 0; i < 2; i++) {
@@ -149,7 +149,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_group_without_a_bone_pins_to_the_world);
   tcase_add_test(c, goal_weights_are_blenders);
   tcase_add_test(c, level_pins_keep_weights);
-  tcase_add_test(c, what_is_not_there_is_said);
+  tcase_add_test(c, missing_parts_are_reported);
   suite_add_tcase(s, c);
   return s;
 }

@@ -98,7 +98,7 @@ START_TEST(a_target_ends_its_leg)
 END_TEST
 
 /* A foot whose skin goes on in that of the shin hangs on the shin, wherever the shin points. */
-START_TEST(skin_says_where_a_foot_belongs)
+START_TEST(skin_weights_identify_the_leg_of_a_foot)
 {
   static const uint32_t spread[8] = {2, 2, 1, 1, 2, 2, 1, 1};
   sbfi_scene scene;
@@ -153,7 +153,7 @@ int main(void) {
   tcase_add_test(tests, a_foot_on_the_root_hangs_on_its_limb);
   tcase_add_test(tests, other_bones_stay);
   tcase_add_test(tests, a_target_ends_its_leg);
-  tcase_add_test(tests, skin_says_where_a_foot_belongs);
+  tcase_add_test(tests, skin_weights_identify_the_leg_of_a_foot);
   tcase_add_test(tests, real_rigs);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -24,7 +24,7 @@ static const said names[] = {{"LeftUpLeg", SBFI_WORD_LEG}, {"thigh.L", SBFI_WORD
     {"Finger1.L", SBFI_WORD_ARM}, {"swing", -1}, {"coffin", -1}, {"Koala", -1}, {"alarm", -1},
     {"Bone.012", -1}, {"", -1}};
 
-START_TEST(names_tell_parts)
+START_TEST(names_identify_parts)
 {
   const said *one = &names[_i];
   uint32_t parts =
@@ -34,7 +34,7 @@ START_TEST(names_tell_parts)
 }
 END_TEST
 
-START_TEST(clips_tell_kinds)
+START_TEST(clips_identify_kinds)
 {
   ck_assert_int_eq(sbfi_clip_kind("Walk_Forward"), SBFI_LOCOMOTION_WALK);
   ck_assert_int_eq(sbfi_clip_kind("Swimming_Fast"), SBFI_LOCOMOTION_SWIM);
@@ -183,7 +183,7 @@ static sbf_gait_kind kind_of(const sbf_asset *a) {
 }
 
 /* Of any size, looking along Z or X, without names or clips. */
-START_TEST(shapes_tell_kinds)
+START_TEST(shapes_identify_kinds)
 {
   const known_shape *known = &shapes[_i / 4];
   converted c;
@@ -218,7 +218,7 @@ START_TEST(the_caller_says_it)
 END_TEST
 
 /* A clip that speaks against the shape makes it doubtful. */
-START_TEST(what_is_unclear_is_asked)
+START_TEST(ambiguity_is_reported)
 {
   converted c;
   make(&c, build_chest, 1, false, "Walk");
@@ -272,7 +272,7 @@ static void build_dragon(sbfi_scene *s) {
   }
 }
 
-START_TEST(height_says_nothing_of_a_long_body)
+START_TEST(height_does_not_determine_a_long_body)
 {
   converted c;
   make(&c, build_dragon, 1, false, NULL);
@@ -460,13 +460,13 @@ int main(void) {
   Suite *suite = suite_create("locomotion");
   TCase *tests = tcase_create("all");
   tcase_set_timeout(tests, 120);
-  tcase_add_loop_test(tests, names_tell_parts, 0, sizeof names / sizeof *names);
-  tcase_add_test(tests, clips_tell_kinds);
-  tcase_add_loop_test(tests, shapes_tell_kinds, 0, 4 * sizeof shapes / sizeof *shapes);
+  tcase_add_loop_test(tests, names_identify_parts, 0, sizeof names / sizeof *names);
+  tcase_add_test(tests, clips_identify_kinds);
+  tcase_add_loop_test(tests, shapes_identify_kinds, 0, 4 * sizeof shapes / sizeof *shapes);
   tcase_add_test(tests, the_caller_says_it);
-  tcase_add_test(tests, what_is_unclear_is_asked);
+  tcase_add_test(tests, ambiguity_is_reported);
   tcase_add_test(tests, parts_of_other_kinds);
-  tcase_add_test(tests, height_says_nothing_of_a_long_body);
+  tcase_add_test(tests, height_does_not_determine_a_long_body);
   tcase_add_test(tests, where_it_is_unclear_legs_walk);
   tcase_add_test(tests, nothing_walks_on_one_leg);
   tcase_add_test(tests, what_little_speaks_for_stands);

@@ -91,7 +91,7 @@ START_TEST(unused_vertices_far_from_all_others_are_left_out_and_reported)
 }
 END_TEST
 
-START_TEST(vertices_of_nobody_are_left_out_and_told)
+START_TEST(vertices_without_an_object_are_left_out_and_reported)
 {
   sbfi_scene scene;
   read_text(&scene, "o cloud\nv 9 9 9\nv 8 8 8\no a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 3 4 5\n");
@@ -376,7 +376,7 @@ static Suite *obj_suite(void) {
   tcase_add_test(tests, unused_vertices_stay_with_their_object);
   tcase_add_test(tests, unused_vertices_go_with_those_that_follow);
   tcase_add_test(tests, unused_vertices_far_from_all_others_are_left_out_and_reported);
-  tcase_add_test(tests, vertices_of_nobody_are_left_out_and_told);
+  tcase_add_test(tests, vertices_without_an_object_are_left_out_and_reported);
   tcase_add_test(tests, each_mesh_has_its_own_normals_and_uvs);
   tcase_add_test(tests, materials_come_from_the_library_beside_the_file);
   tcase_add_test(tests, a_missing_library_is_a_warning);

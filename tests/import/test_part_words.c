@@ -2,7 +2,7 @@
 
 #include "harness.h"
 
-START_TEST(names_tell_what_is_hard)
+START_TEST(names_identify_rigid_parts)
 {
   static const struct {
     const char *name;
@@ -22,7 +22,7 @@ START_TEST(names_tell_what_is_hard)
 }
 END_TEST
 
-START_TEST(materials_tell_what_is_hard)
+START_TEST(materials_identify_rigid_parts)
 {
   ck_assert(sbfi_material_is_hard("Metal_Dark"));
   ck_assert(sbfi_material_is_hard("LightWood"));
@@ -35,8 +35,8 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("part_words");
   TCase *c = tcase_create("part_words");
-  tcase_add_test(c, names_tell_what_is_hard);
-  tcase_add_test(c, materials_tell_what_is_hard);
+  tcase_add_test(c, names_identify_rigid_parts);
+  tcase_add_test(c, materials_identify_rigid_parts);
   suite_add_tcase(s, c);
   return s;
 }

@@ -244,7 +244,7 @@ static int32_t hang(
 
 /* An animal with names that say nothing: a trunk of two girdles, legs with collar bones and toes, a neck with
  * ears on the head, and what leads back behind. */
-START_TEST(shapes_tell_what_names_do_not)
+START_TEST(shapes_identify_parts_without_names)
 {
   sbfi_scene scene;
   scene_begin(&scene);
@@ -290,7 +290,7 @@ START_TEST(shapes_tell_what_names_do_not)
 END_TEST
 
 /* Arms that hang, a spine that leans back, a pony tail and a head band are no legs, tail or head. */
-START_TEST(what_looks_like_it_and_is_not)
+START_TEST(similar_cases_are_not_matched)
 {
   sbfi_scene scene;
   scene_begin(&scene);
@@ -397,8 +397,8 @@ int main(void) {
   tcase_add_test(tests, a_snake_slithers);
   tcase_add_test(tests, a_caterpillar_is_a_chain_on_feet);
   tcase_add_test(tests, rigs_without_legs_or_spine);
-  tcase_add_test(tests, shapes_tell_what_names_do_not);
-  tcase_add_test(tests, what_looks_like_it_and_is_not);
+  tcase_add_test(tests, shapes_identify_parts_without_names);
+  tcase_add_test(tests, similar_cases_are_not_matched);
   tcase_add_loop_test(tests, shins_on_the_ground_have_feet, 0, 2);
   tcase_add_test(tests, steps_go_with_the_size);
   tcase_add_test(tests, an_authored_gait_stays);

@@ -206,7 +206,7 @@ START_TEST(ears_are_no_arms)
 END_TEST
 
 /* An idle clip says how it stands; one with a weapon does not. */
-START_TEST(a_clip_says_how_it_stands)
+START_TEST(a_clip_sets_the_stance)
 {
   sbfi_scene scene;
   converted c;
@@ -241,7 +241,7 @@ int main(void) {
   tcase_add_test(tests, arms_that_hang_stay);
   tcase_add_test(tests, arms_swing_against_legs);
   tcase_add_test(tests, ears_are_no_arms);
-  tcase_add_test(tests, a_clip_says_how_it_stands);
+  tcase_add_test(tests, a_clip_sets_the_stance);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

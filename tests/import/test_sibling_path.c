@@ -9,7 +9,7 @@ static void expect(const char *path, const char *name, const char *expected) {
   if (good) ck_assert_str_eq(to, expected);
 }
 
-START_TEST(names_are_looked_for_beside_the_file)
+START_TEST(named_files_are_searched_beside_the_file)
 {
   expect("a/b/model.obj", "m.mtl", "a/b/m.mtl");
   expect("model.obj", "m.mtl", "m.mtl");
@@ -26,7 +26,7 @@ END_TEST
 static Suite *sibling_path_suite(void) {
   Suite *suite = suite_create("sibling_path");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, names_are_looked_for_beside_the_file);
+  tcase_add_test(tests, named_files_are_searched_beside_the_file);
   suite_add_tcase(suite, tests);
   return suite;
 }

@@ -76,9 +76,9 @@ def use(system, source):
         shutil.copy(os.path.join(source, "examples", "lizard", name), os.path.join(system, "tmp"))
     enter(system, "sbfmt", "convert", "/tmp/lizard.obj", "--rig", "/tmp/lizard.glb", "-o", "/tmp/lizard.sbfz")
     enter(system, "sbfmt", "validate", "/tmp/lizard.sbfz")
-    said = enter(system, "sbfmt", "run", "/tmp/lizard.sbfz", "--seconds", "0.5", "--format", "json").stdout
-    if '"valid": true' not in said:
-        sys.exit("the lizard does not move well:\n" + said)
+    printed = enter(system, "sbfmt", "run", "/tmp/lizard.sbfz", "--seconds", "0.5", "--format", "json").stdout
+    if '"valid": true' not in printed:
+        sys.exit("the lizard does not move well:\n" + printed)
     for path in ("usr/share/man/man1/sbfmt.1", "usr/include/sbfmt/io.h", "usr/share/sbfmt/python/sbfmt/__init__.py"):
         if not os.path.exists(os.path.join(system, path)):
             sys.exit(f"/{path} is not there")

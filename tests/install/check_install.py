@@ -167,9 +167,9 @@ class Package:
 
 def check_walk(programs, bundle):
     """Every build of the example prints the same walk, to the last bit of its state."""
-    said = {run(program, bundle) for program in programs}
-    expect(len(said) == 1, f"the programs disagree: {said}")
-    text = said.pop()
+    printed = {run(program, bundle) for program in programs}
+    expect(len(printed) == 1, f"the programs disagree: {printed}")
+    text = printed.pop()
     say(text.rstrip())
     walked = re.findall(r"root at \S+ \S+ (\S+) m, (\d+) steps", text)
     expect(len(walked) == 5 and float(walked[-1][0]) > 1, "it did not walk a metre in five seconds")
@@ -211,7 +211,7 @@ def main():
     say(f"{len(programs)} builds of the engine's example: good, without libxml2 and assimp")
 
     if package.runtime_only:
-        code, said = run("cmake", "-S", os.path.join(arguments.source, "tests/install/sdk_user"), "-B",
+        code, printed = run("cmake", "-S", os.path.join(arguments.source, "tests/install/sdk_user"), "-B",
                          os.path.join(arguments.scratch, "refused"), f"-DCMAKE_PREFIX_PATH={package.prefix}",
                          "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF", must=False)
         expect(code != 0, "a project that needs sbfmt::interchange configured against the runtime alone")

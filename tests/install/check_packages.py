@@ -20,10 +20,10 @@ from make_packages import cache_of  # noqa: E402
 SKIPPED = 77
 
 
-def make(asked):
-    out = os.path.join(asked.scratch, "made")
-    command = [sys.executable, "-B", os.path.join(asked.source, "cmake", "make_packages.py"), "--static", asked.build, "--shared",
-               asked.shared, "--out", out]
+def make(arguments):
+    out = os.path.join(arguments.scratch, "made")
+    command = [sys.executable, "-B", os.path.join(arguments.source, "cmake", "make_packages.py"), "--static", arguments.build, "--shared",
+               arguments.shared, "--out", out]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode and ("NOT MADE" not in done.stdout or "a command failed" in done.stdout):
         sys.exit(f"{' '.join(command)}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
@@ -37,9 +37,9 @@ def check_sums(folder):
         listed = dict(reversed(line.rstrip("\n").split("  ")) for line in file)
     if set(listed) != set(os.listdir(folder)) - {"SHA256SUMS"}:
         sys.exit(f"SHA256SUMS lists {sorted(listed)}, there are {sorted(os.listdir(folder))}")
-    for name, told in listed.items():
+    for name, reported in listed.items():
         with open(os.path.join(folder, name), "rb") as file:
-            if hashlib.sha256(file.read()).hexdigest() != told:
+            if hashlib.sha256(file.read()).hexdigest() != reported:
                 sys.exit(f"{name} has another sum than SHA256SUMS tells")
     return listed
 
@@ -48,18 +48,18 @@ def first(folder, pattern):
     return next(iter(sorted(glob.glob(os.path.join(folder, pattern)))), "")
 
 
-def checks(asked, folder):
+def checks(arguments, folder):
     """Name, the package's file ("" where there is none), and the command that tries it."""
-    tests, cache = os.path.join(asked.source, "tests"), cache_of(asked.build)
-    program = os.path.join(asked.build, "tools", "sbfmt")
-    cxx = ["--cxx", asked.cxx] if asked.cxx else []
+    tests, cache = os.path.join(arguments.source, "tests"), cache_of(arguments.build)
+    program = os.path.join(arguments.build, "tools", "sbfmt")
+    cxx = ["--cxx", arguments.cxx] if arguments.cxx else []
     deb = first(folder, "sbfmt_*.deb")
-    yield "Debian packages, in a clean system", deb, [os.path.join(tests, "install", "check_deb.py"), "--source", asked.source,
-                                                      "--scratch", os.path.join(asked.scratch, "deb"), "--packages", folder]
+    yield "Debian packages, in a clean system", deb, [os.path.join(tests, "install", "check_deb.py"), "--source", arguments.source,
+                                                      "--scratch", os.path.join(arguments.scratch, "deb"), "--packages", folder]
     tarball = first(folder, "sbfmt-[0-9]*.tar.gz")
     yield "CMake package and pkg-config, moved", tarball, [
-        os.path.join(tests, "install", "check_install.py"), "--source", asked.source, "--scratch",
-        os.path.join(asked.scratch, "tarball"), "--cc", asked.cc, *cxx, "--tarball", tarball]
+        os.path.join(tests, "install", "check_install.py"), "--source", arguments.source, "--scratch",
+        os.path.join(arguments.scratch, "tarball"), "--cc", arguments.cc, *cxx, "--tarball", tarball]
     npm = first(folder, "sbfmt-npm-*.tgz")
     yield "npm package, in a fresh project", npm, [os.path.join(tests, "web", "test_package.py"), npm]
     cli = first(folder, "sbfmt-cli-*.tgz")
@@ -67,9 +67,9 @@ def checks(asked, folder):
     addon = first(folder, "sbfmt-blender-*.zip")
     blender = os.path.join(tests, "blender", "run_in_blender.py")
     yield "Blender's add-on, in the system's Blender", addon, [blender, "--zip", addon, "test_addon_zip", "test_check_and_build"]
-    if asked.packages:  # those made here have the libraries of this system
+    if arguments.packages:  # those made here have the libraries of this system
         yield "Blender's add-on, whatever the system has", addon, [os.path.join(tests, "install", "check_self_contained.py"), addon]
-    newer = cache.get("SBFMT_OTHER_SYSTEM", os.path.join(asked.source, "build", "other-system"))
+    newer = cache.get("SBFMT_OTHER_SYSTEM", os.path.join(arguments.source, "build", "other-system"))
     yield "Blender's add-on, in a newer Blender", addon, [blender, "--root", newer, "--zip", addon, "test_addon_zip",
                                                           "test_check_and_build"]
     godot = first(folder, "sbfmt-godot-*.zip")
@@ -87,28 +87,28 @@ def main():
     parser.add_argument("--cxx", default="")
     parser.add_argument("--shared", default="")
     parser.add_argument("--packages", default="")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     for name in ("source", "build", "scratch", "shared", "packages"):
-        value = getattr(asked, name)
-        setattr(asked, name, value and os.path.abspath(value))
-    os.makedirs(asked.scratch, exist_ok=True)
-    folder = asked.packages or make(asked)
+        value = getattr(arguments, name)
+        setattr(arguments, name, value and os.path.abspath(value))
+    os.makedirs(arguments.scratch, exist_ok=True)
+    folder = arguments.packages or make(arguments)
     check_sums(folder)
     good = skipped = 0
     failed = []
-    environment = {**os.environ, "SBFMT_BUILD_DIR": asked.build, "PYTHONDONTWRITEBYTECODE": "1"}
-    for name, package, command in checks(asked, folder):
+    environment = {**os.environ, "SBFMT_BUILD_DIR": arguments.build, "PYTHONDONTWRITEBYTECODE": "1"}
+    for name, package, command in checks(arguments, folder):
         if not package:
             print(f"SKIP {name}: it was not made, see above", flush=True)
             skipped += 1
             continue
         done = subprocess.run([sys.executable, "-B", *command], capture_output=True, text=True, env=environment, check=False)
-        said = (done.stdout + done.stderr).strip()
+        printed = (done.stdout + done.stderr).strip()
         if done.returncode == SKIPPED:
-            print(f"SKIP {name}: {said.splitlines()[-1].removeprefix('skipped: ') if said else 'it gave no reason'}", flush=True)
+            print(f"SKIP {name}: {printed.splitlines()[-1].removeprefix('skipped: ') if printed else 'it gave no reason'}", flush=True)
             skipped += 1
         elif done.returncode:
-            print(f"FAILED   {name}\n{said[-6000:]}", flush=True)
+            print(f"FAILED   {name}\n{printed[-6000:]}", flush=True)
             failed.append(name)
         else:
             print(f"good     {name}", flush=True)

@@ -38,8 +38,8 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("addon")
     parser.add_argument("--newest-glibc", default="2.35")
-    asked = parser.parse_args()
-    with zipfile.ZipFile(asked.addon) as archive, tempfile.TemporaryDirectory() as folder:
+    arguments = parser.parse_args()
+    with zipfile.ZipFile(arguments.addon) as archive, tempfile.TemporaryDirectory() as folder:
         names = [name for name in archive.namelist() if "/lib/" in name]
         licences = {os.path.basename(name) for name in names if "/licences/" in name}
         if not licences:
@@ -48,9 +48,9 @@ def main():
         faults = [f"the licence {name} is missing" for name in sorted(LICENCES - licences)]
         for name in names:
             if name.endswith(".so"):
-                faults += faults_of(archive.extract(name, folder), asked.newest_glibc)
+                faults += faults_of(archive.extract(name, folder), arguments.newest_glibc)
     for fault in faults[:20]:
-        print(f"{asked.addon}: {fault}", file=sys.stderr)
+        print(f"{arguments.addon}: {fault}", file=sys.stderr)
     sys.exit(1 if faults else 0)
 
 

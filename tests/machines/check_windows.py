@@ -58,15 +58,15 @@ def program_faults(tree, native, bundle):
     there = ("wine", os.path.join(tree, "tools", "windows", "sbfmt.exe"))
     here = (os.path.join(native, "tools", "sbfmt"),)
     for options in RUNS:
-        said = {}
+        printed = {}
         for name, program in (("there", there), ("here", here)):
             files = [os.path.join(tree, f"{name}.{kind}") for kind in ("pc2", "csv")]
             done = run(*program, "run", bundle, *options, "--cache", files[0], "--pose", files[1], "--format", "json")
-            said[name] = [TIMED.sub("", done.stdout), *(open(file, "rb").read() for file in files)]
-        if "state_hash" not in said["here"][0]:
+            printed[name] = [TIMED.sub("", done.stdout), *(open(file, "rb").read() for file in files)]
+        if "state_hash" not in printed["here"][0]:
             faults.append(f"run {options} reports nothing")
         faults += [f"run {options}: the {what} is not the same" for what, a, b in
-                   zip(("report", "cache", "pose"), said["there"], said["here"]) if a != b]
+                   zip(("report", "cache", "pose"), printed["there"], printed["here"]) if a != b]
     for wrong, status in ((("run", bundle + ".none"), 2), (("run", __file__), 1), (("run", bundle, "--scheme", "x"), 2)):
         done = run(*there, *wrong, must=False)
         if done.returncode != status or "error: " not in done.stderr:

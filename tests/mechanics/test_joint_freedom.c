@@ -2,7 +2,7 @@
 #include "mechanics/joint_freedom.h"
 
 /* Free coordinates of each kind, as the table of spec 8.3 counts them: linear, angular. */
-START_TEST(kinds_leave_free_what_the_specification_says)
+START_TEST(kinds_have_the_free_axes_of_the_specification)
 {
   static const int linear[SBF_JOINT_KIND_COUNT] = {1, 0, 1, 0, 1, 2, 3, 3, 0, 3};
   static const int angular[SBF_JOINT_KIND_COUNT] = {0, 1, 1, 3, 3, 3, 3, 3, 0, 3};
@@ -25,7 +25,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("joint_freedom");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, kinds_leave_free_what_the_specification_says);
+  tcase_add_test(tests, kinds_have_the_free_axes_of_the_specification);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

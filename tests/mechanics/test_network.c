@@ -42,7 +42,7 @@ START_TEST(chain_under_its_own_weight)
 }
 END_TEST
 
-START_TEST(what_nothing_holds_is_told)
+START_TEST(bodies_without_pins_are_reported)
 {
   sbf_spring_network network = chain(100, 0.5f, false);
   double forces[3 * (COUNT + 1)] = {0}, moved[3 * (COUNT + 1)], scratch[10 * (COUNT + 1)];
@@ -228,7 +228,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("network");
   TCase *c = tcase_create("network");
   tcase_add_test(c, chain_under_its_own_weight);
-  tcase_add_test(c, what_nothing_holds_is_told);
+  tcase_add_test(c, bodies_without_pins_are_reported);
   tcase_add_test(c, anchors_hold_in_all_directions);
   tcase_add_test(c, highest_mode_of_a_chain);
   tcase_add_test(c, bound_counts_held_neighbours_once);

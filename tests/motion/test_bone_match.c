@@ -92,7 +92,7 @@ START_TEST(chains_come_first)
 }
 END_TEST
 
-START_TEST(chains_tell_parts_that_names_do_not)
+START_TEST(chains_identify_parts_without_names)
 {
   static const char *const names[] = {"b0", "b1", "b2", "b3", "b4", "b5", "b6", "b7", NULL};
   static const uint32_t leg[] = {1, 2, 3}, arm[] = {4, 5, 6, 7};
@@ -121,7 +121,7 @@ int main(void) {
   tcase_add_test(tests, what_a_word_means_depends_on_the_others);
   tcase_add_test(tests, several_bones_of_a_part_go_by_share);
   tcase_add_test(tests, chains_come_first);
-  tcase_add_test(tests, chains_tell_parts_that_names_do_not);
+  tcase_add_test(tests, chains_identify_parts_without_names);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

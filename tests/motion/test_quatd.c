@@ -22,7 +22,7 @@ START_TEST(halfway_between_two_rotations)
 END_TEST
 
 /* Against what libm says, for turns of all sizes. */
-START_TEST(the_arc_is_gone_at_constant_speed)
+START_TEST(the_arc_is_followed_at_constant_speed)
 {
   static const double none[] = {0, 0, 0, 1};
   for (double turned = 0.01; turned < PI; turned += 0.13) {
@@ -55,7 +55,7 @@ int main(void) {
   Suite *suite = suite_create("turn");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, halfway_between_two_rotations);
-  tcase_add_test(tests, the_arc_is_gone_at_constant_speed);
+  tcase_add_test(tests, the_arc_is_followed_at_constant_speed);
   tcase_add_test(tests, between_two_vectors_lies_the_least_turn);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -158,15 +158,15 @@ def check_untouched(workshop, mutants):
 def print_table(outcomes):
     """Killed and survived by folder; whether each folder reaches the goal."""
     reached = True
-    print(f"\n{'folder':<10} {'mutants':>7} {'killed':>7} {'survived':>8} {'not run':>7} {'share':>6}")
+    print(f"\n{'folder':<10} {'mutants':>7} {'killed':>7} {'survived':>8} {'not run':>7} {'fraction':>6}")
     for _, folder in FOLDERS:
         mine = [outcome for mutant, outcome in outcomes if mutant.folder == folder]
         if not mine:
             continue
         count = {word: mine.count(word) for word in (KILLED, SURVIVED, FAULT)}
-        share = count[KILLED] / len(mine)
-        reached = reached and share >= GOAL and not count[FAULT]
-        print(f"{folder:<10} {len(mine):>7} {count[KILLED]:>7} {count[SURVIVED]:>8} {count[FAULT]:>7} {share:>6.0%}")
+        fraction = count[KILLED] / len(mine)
+        reached = reached and fraction >= GOAL and not count[FAULT]
+        print(f"{folder:<10} {len(mine):>7} {count[KILLED]:>7} {count[SURVIVED]:>8} {count[FAULT]:>7} {fraction:>6.0%}")
     return reached
 
 
@@ -184,7 +184,7 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("words", nargs="*")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     try:
         mutants = read_mutants(os.path.join(ROOT, "tests", "mutants", "mutants.txt"))
         faults = check_mutants(mutants, ROOT)
@@ -193,13 +193,13 @@ def main():
     if faults:
         print(*(f"tests/mutants/mutants.txt: {fault}" for fault in faults), sep="\n")
         sys.exit(1)
-    if asked.check:
+    if arguments.check:
         print(f"{len(mutants)} mutants, each with its place in the source")
         return
-    folder = os.path.abspath(asked.build)
+    folder = os.path.abspath(arguments.build)
     results = os.path.join(folder, "results.json")
     last = json.load(open(results, encoding="utf-8")) if os.path.isfile(results) else {}
-    chosen = selected(mutants, asked.words, last if asked.survivors else None)
+    chosen = selected(mutants, arguments.words, last if arguments.survivors else None)
     if not chosen:
         sys.exit("no mutant is selected")
     workshop = Workshop(folder, int(os.environ.get("JOBS") or os.cpu_count()))

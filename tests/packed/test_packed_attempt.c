@@ -72,7 +72,7 @@ START_TEST(test_what_is_kept_is_the_smallest_and_of_equals_the_first)
 }
 END_TEST
 
-START_TEST(test_failed_allocations_are_told)
+START_TEST(test_failed_allocations_are_reported)
 {
   uint32_t values[COUNT];
   bool fits = false;
@@ -96,7 +96,7 @@ int main(void) {
   TCase *all = tcase_create("all");
   tcase_add_loop_test(all, test_the_best_filter_is_the_one_that_leaves_least, 0, 3);
   tcase_add_test(all, test_what_is_kept_is_the_smallest_and_of_equals_the_first);
-  tcase_add_test(all, test_failed_allocations_are_told);
+  tcase_add_test(all, test_failed_allocations_are_reported);
   suite_add_tcase(suite, all);
   return harness_run(suite);
 }

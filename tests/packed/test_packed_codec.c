@@ -99,7 +99,7 @@ START_TEST(test_room_is_kept_to_the_byte)
 }
 END_TEST
 
-START_TEST(test_failed_allocations_are_told)
+START_TEST(test_failed_allocations_are_reported)
 {
   uint32_t *values = ramp();
   uint8_t *stored = malloc(BYTES), *back = malloc(BYTES);
@@ -145,7 +145,7 @@ int main(void) {
   tcase_add_test(tests, test_every_filter_comes_back);
   tcase_add_test(tests, test_streams_that_are_not_whole_are_damaged);
   tcase_add_test(tests, test_room_is_kept_to_the_byte);
-  tcase_add_test(tests, test_failed_allocations_are_told);
+  tcase_add_test(tests, test_failed_allocations_are_reported);
   tcase_add_test(tests, test_crc_is_that_of_zip_and_png);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -260,7 +260,7 @@ START_TEST(test_random_damage_of_a_filled_asset)
 }
 END_TEST
 
-START_TEST(test_checksum_of_a_chunk_is_checked_when_asked)
+START_TEST(test_checksum_of_a_chunk_is_checked_on_request)
 {
   sbf_buffer file = small_file(true);
   sbf_asset *loaded;
@@ -553,7 +553,7 @@ int main(void) {
   tcase_add_test(tests, test_every_damaged_byte_is_seen_with_checksums);
   tcase_add_loop_test(tests, test_damage_never_breaks_the_promise, 0, 8);
   tcase_add_test(tests, test_random_damage_of_a_filled_asset);
-  tcase_add_test(tests, test_checksum_of_a_chunk_is_checked_when_asked);
+  tcase_add_test(tests, test_checksum_of_a_chunk_is_checked_on_request);
   tcase_add_test(tests, test_the_version_is_at_least_that_of_the_header);
   tcase_add_test(tests, test_numbers_of_a_mapped_list_are_checked);
   tcase_add_test(tests, test_every_failed_allocation_leaves_nothing);

@@ -48,7 +48,7 @@ static void expect_patched(size_t offset, int size, uint64_t value, sbf_code cod
   free(copy);
 }
 
-START_TEST(test_header_says_what_the_file_is)
+START_TEST(test_the_header_identifies_the_file)
 {
   make_file();
   ck_assert_mem_eq(file.at, "\x89SBF\r\n\x1a\n", 8);
@@ -304,7 +304,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("packed_table");
   TCase *tests = tcase_create("packed_table");
-  tcase_add_test(tests, test_header_says_what_the_file_is);
+  tcase_add_test(tests, test_the_header_identifies_the_file);
   tcase_add_test(tests, test_chunks_of_a_level_are_found_from_the_table);
   tcase_add_test(tests, test_damage_of_a_transfer_is_named);
   tcase_add_test(tests, test_header_faults);

@@ -39,7 +39,7 @@ def some_numbers():
 
 
 class Numbers(unittest.TestCase):
-    def test_floats_are_written_as_the_specification_says(self):
+    def test_floats_are_written_by_the_specification(self):
         numbers = some_numbers()
         for number, word in zip(numbers, float_words(numbers)):
             self.assertEqual(word, sbf_numbers.print_float(number))

@@ -54,32 +54,32 @@ class Calls(ModuleTest):
             self.skipTest("the program is not built")
         built = sbfmt.convert(LIZARD, rig=RIG).build()
         built.save(self.path("a.sbf"))
-        told = json.loads(subprocess.check_output([program, "info", self.path("a.sbf"), "--format", "json"]))
+        reported = json.loads(subprocess.check_output([program, "info", self.path("a.sbf"), "--format", "json"]))
         info = built.info()
         for key in ("format_version", "tetrahedra", "pins", "attachments", "rigid_bodies", "joints", "gait", "levels"):
-            self.assertEqual(info[key], told[key], key)
+            self.assertEqual(info[key], reported[key], key)
         for kind, count in info["springs"].items():
-            self.assertEqual(count, told["springs"][kind], kind)
-        for one, other in zip(info["sections"], told["sections"]):
+            self.assertEqual(count, reported["springs"][kind], kind)
+        for one, other in zip(info["sections"], reported["sections"]):
             self.assertEqual({key: one[key] for key in ("name", "vertices", "polygons", "interior_points", "pins")},
                              {key: other[key] for key in ("name", "vertices", "polygons", "interior_points", "pins")})
-        self.assertEqual(len(info["bones"]), len(told["bones"]))
-        self.assertAlmostEqual(info["mass"] / told["mass"], 1, delta=1e-6)
-        for one, other in zip(info["bounds"]["min"], told["bounds"]["min"]):
+        self.assertEqual(len(info["bones"]), len(reported["bones"]))
+        self.assertAlmostEqual(info["mass"] / reported["mass"], 1, delta=1e-6)
+        for one, other in zip(info["bounds"]["min"], reported["bounds"]["min"]):
             self.assertAlmostEqual(one, other, delta=1e-6)
 
     def test_export(self):
-        said = []
-        sbfmt.load(os.path.join(SAMPLES, "valid", "everything.sbf")).export(self.path("a.obj"), report=said.append)
+        printed = []
+        sbfmt.load(os.path.join(SAMPLES, "valid", "everything.sbf")).export(self.path("a.obj"), report=printed.append)
         self.assertTrue(os.path.exists(self.path("a.obj")))
-        self.assertEqual(said[0].code, "EXPORT_LEFT_OUT")
+        self.assertEqual(printed[0].code, "EXPORT_LEFT_OUT")
 
-    def test_mending(self):
-        said = []
+    def test_repair(self):
+        printed = []
         turned = sbfmt.load(os.path.join(SAMPLES, "invalid", "surface_winding.sbf"))
         self.assertIn("SURFACE_WINDING", [one.code for one in turned.validate().findings])
-        fixed = turned.fix(report=said.append)
-        self.assertEqual([one.code for one in said], ["SURFACE_WINDING"])
+        fixed = turned.fix(report=printed.append)
+        self.assertEqual([one.code for one in printed], ["SURFACE_WINDING"])
         self.assertNotIn("SURFACE_WINDING", [one.code for one in fixed.validate().findings])
 
     def test_versions_and_places(self):
@@ -106,7 +106,7 @@ class Calls(ModuleTest):
 
 
 class Errors(ModuleTest):
-    def test_a_bad_file_says_what_and_where(self):
+    def test_errors_of_a_bad_file_name_what_and_where(self):
         with self.assertRaises(sbfmt.Error) as caught:
             sbfmt.load(os.path.join(SAMPLES, "invalid", "bone_before_parent.sbf"))
         error = caught.exception
@@ -139,12 +139,12 @@ class Errors(ModuleTest):
             sbfmt.convert(LIZARD, up="x")
         with self.assertRaises(ValueError):
             sbfmt.convert(LIZARD, limits="fish")
-        said = []
+        printed = []
         try:
-            sbfmt.convert(LIZARD, rig=RIG, pins={"nowhere": None}, report=said.append)
+            sbfmt.convert(LIZARD, rig=RIG, pins={"nowhere": None}, report=printed.append)
         except sbfmt.Error as error:
-            said.append(error.diagnostic)
-        self.assertIn("IMPORT_PIN_UNKNOWN", [message.code for message in said])
+            printed.append(error.diagnostic)
+        self.assertIn("IMPORT_PIN_UNKNOWN", [message.code for message in printed])
 
 
 class Callbacks(ModuleTest):
@@ -152,15 +152,15 @@ class Callbacks(ModuleTest):
         super().setUp()
         self.source = sbfmt.convert(LIZARD, rig=RIG)
 
-    def test_progress_is_told(self):
+    def test_progress_is_reported(self):
         shares = []
-        self.source.build(progress=lambda name, share: shares.append((name, share)))
+        self.source.build(progress=lambda name, fraction: shares.append((name, fraction)))
         self.assertGreater(len(shares), 3)
-        self.assertTrue(all(0 <= share <= 1 for _, share in shares))
+        self.assertTrue(all(0 <= fraction <= 1 for _, fraction in shares))
 
     def test_false_cancels(self):
         with self.assertRaises(sbfmt.Cancelled) as caught:
-            self.source.build(progress=lambda name, share: False)
+            self.source.build(progress=lambda name, fraction: False)
         self.assertEqual(caught.exception.code, "CANCELLED")
 
     def test_what_a_callback_raises_comes_out(self):
@@ -170,25 +170,25 @@ class Callbacks(ModuleTest):
             self.source.build(progress=progress)
 
     def test_warnings_are_reported(self):
-        said = []
-        sbfmt.convert(LIZARD, report=said.append)
-        self.assertIn("IMPORT_NO_RIG", [one.code for one in said])
-        self.assertEqual({one.severity for one in said if one.code == "IMPORT_NO_RIG"}, {"warning"})
-        self.assertLessEqual({one.severity for one in said}, {"warning", "info"})
+        printed = []
+        sbfmt.convert(LIZARD, report=printed.append)
+        self.assertIn("IMPORT_NO_RIG", [one.code for one in printed])
+        self.assertEqual({one.severity for one in printed if one.code == "IMPORT_NO_RIG"}, {"warning"})
+        self.assertLessEqual({one.severity for one in printed}, {"warning", "info"})
 
 
 class Binary(ModuleTest):
     def test_structs_are_those_of_the_headers(self):
-        told = subprocess.check_output([os.environ["SBFMT_STRUCT_SIZES"]], text=True).splitlines()
-        self.assertGreater(len(told), 25)
-        for line in told:
+        reported = subprocess.check_output([os.environ["SBFMT_STRUCT_SIZES"]], text=True).splitlines()
+        self.assertGreater(len(reported), 25)
+        for line in reported:
             name, number = line.rsplit(" ", 1)
             struct, _, member = name.partition(".")
             mirrored = {**library.OPTIONS, **runtime.STRUCTS, **detail.STRUCTS, **soft_body.STRUCTS}[struct]
             found = getattr(mirrored, member).offset if member else ctypes.sizeof(mirrored)
             self.assertEqual(found, int(number), name)
 
-    def test_without_a_library_it_says_what_to_do(self):
+    def test_without_a_library_the_message_says_what_to_do(self):
         environment = {**os.environ, "SBFMT_LIBRARY": self.path("none"), "PYTHONPATH": MODULE}
         done = subprocess.run([sys.executable, "-B", "-c", "import sbfmt; sbfmt.library_path()"], env=environment,
                               capture_output=True, text=True, check=False)
@@ -216,9 +216,9 @@ class Binary(ModuleTest):
         self.assertNotEqual(renamed, whole)
         self.assertIn("needs libm.so.7, which this system does not have", self.fault(renamed))
 
-    def test_what_the_loader_says_of_an_older_system(self):
-        said = "/lib/x86_64-linux-gnu/libc.so.6: version `GLIBC_2.35' not found (required by /tmp/x.so)"
-        self.assertIn("needs glibc 2.35 or newer", library.fault_in_words(said))
+    def test_the_loaders_error_on_an_older_system(self):
+        printed = "/lib/x86_64-linux-gnu/libc.so.6: version `GLIBC_2.35' not found (required by /tmp/x.so)"
+        self.assertIn("needs glibc 2.35 or newer", library.fault_in_words(printed))
 
     def test_a_folder_may_be_named(self):
         os.mkdir(self.path("lib"))

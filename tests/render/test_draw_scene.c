@@ -170,7 +170,7 @@ START_TEST(sections_seen_through_are_one_skin)
 }
 END_TEST
 
-START_TEST(solid_meshes_of_one_look_are_one_part)
+START_TEST(solid_meshes_of_one_material_are_one_part)
 {
   draw_scene_add_mesh(scene, &square);
   draw_scene_add_mesh(scene, &square);
@@ -245,7 +245,7 @@ int main(void) {
   tcase_add_test(tests, far_lines_come_first);
   tcase_add_test(tests, far_veils_come_first);
   tcase_add_test(tests, sections_seen_through_are_one_skin);
-  tcase_add_test(tests, solid_meshes_of_one_look_are_one_part);
+  tcase_add_test(tests, solid_meshes_of_one_material_are_one_part);
   tcase_add_test(tests, marks_are_framed_but_not_rings);
   tcase_add_test(tests, steady_frames_allocate_nothing);
   tcase_add_test(tests, hull_shows_its_edges_but_not_its_cuts);

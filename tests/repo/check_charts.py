@@ -14,11 +14,11 @@ def faults_of_chart(name, drawing, table):
     if table is None:
         return [f"{name}.svg: {TABLE.format(name)} is not there: keep the table that it is drawn from"]
     rows = [row for row in csv.DictReader(io.StringIO(table)) if row["scheme"] != "reference"]
-    said = re.search(r"commit ([0-9a-f]+\+?)", drawing)
+    printed = re.search(r"commit ([0-9a-f]+\+?)", drawing)
     commits = {row["commit"] for row in rows}
     faults = []
-    if not said or commits != {said.group(1)}:
-        faults.append(f"{name}.svg: drawn at commit {said and said.group(1)}, its table measured at {', '.join(sorted(commits))}")
+    if not printed or commits != {printed.group(1)}:
+        faults.append(f"{name}.svg: drawn at commit {printed and printed.group(1)}, its table measured at {', '.join(sorted(commits))}")
     if not any(f">{row['case']}<" in drawing for row in rows[:1]):
         faults.append(f"{name}.svg: it is no drawing of the case {rows[0]['case'] if rows else 'of its table'}")
     return faults

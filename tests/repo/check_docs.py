@@ -49,12 +49,12 @@ def command_faults(text, run_help, program):
         for verb, rest in re.findall(r"(?:^|[\s;&/])sbfmt ([a-z]\w*)([^;&|]*)", line):
             if not program:
                 continue
-            said = output(program, verb, "--help")
-            if said is None:
+            printed = output(program, verb, "--help")
+            if printed is None:
                 faults.append(f"sbfmt {verb}: no such verb")
                 continue
             faults += [f"sbfmt {verb} {option}: no such option" for option in re.findall(r"(?:^|\s)(--?[a-z][\w-]*)", rest)
-                       if not re.search(rf"^\s+{re.escape(option)}(\s|$)", said, re.MULTILINE)]
+                       if not re.search(rf"^\s+{re.escape(option)}(\s|$)", printed, re.MULTILINE)]
     return faults
 
 

@@ -42,10 +42,10 @@ def run_faults(path, here, program, libraries):
         bundle = make_bundle(program, folder)
         for compiler in here:
             out = os.path.join(folder, compiler)
-            said = compile_example(compiler, path, out, libraries)
-            done = run(out, bundle) if not said else None
-            if said or done.returncode:
-                faults.append(f"{path} by {compiler}: {said or done.stderr}")
+            output = compile_example(compiler, path, out, libraries)
+            done = run(out, bundle) if not output else None
+            if output or done.returncode:
+                faults.append(f"{path} by {compiler}: {output or done.stderr}")
             else:
                 printed[compiler] = done.stdout
     if len(set(printed.values())) > 1 or not all(printed.values()):
@@ -59,8 +59,8 @@ def main():
         print("skipped: no C or no C++ compiler (Debian: apt-get install gcc g++)")
         sys.exit(SKIPPED)
     files = [path for path in project_files() if path.startswith("examples/") and path.endswith(".c")]
-    faults = [f"{path} by {compiler}: {said}" for path in files for compiler in here
-              if (said := compile_example(compiler, path))]
+    faults = [f"{path} by {compiler}: {output}" for path in files for compiler in here
+              if (output := compile_example(compiler, path))]
     for path in files if not faults and len(sys.argv) > 2 else ():
         faults += run_faults(path, here, sys.argv[1], sys.argv[2:])
     if not files:

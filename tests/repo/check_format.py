@@ -25,8 +25,8 @@ def main():
     files = [path for path in project_files() if path.endswith((".c", ".h")) and not is_generated(path)]
     if "--mend" in sys.argv[1:]:
         subprocess.run([program, "--style=file", "-i", *files], cwd=ROOT, check=True)
-    said = subprocess.run([program, "--style=file", "--dry-run", *files], cwd=ROOT, capture_output=True, text=True).stderr
-    wrong = sorted(set(re.findall(r"^(\S+?):\d+:\d+: warning:", said, re.MULTILINE)))
+    printed = subprocess.run([program, "--style=file", "--dry-run", *files], cwd=ROOT, capture_output=True, text=True).stderr
+    wrong = sorted(set(re.findall(r"^(\S+?):\d+:\d+: warning:", printed, re.MULTILINE)))
     conclude(f"layout of {len(files)} files", [f"{path}: ./run format mends it" for path in wrong])
 
 

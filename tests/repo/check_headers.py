@@ -39,9 +39,9 @@ def main():
     faults = []
     for header in headers:
         for language, compiler in [(language, name) for language, names in compilers.items() for name in names.values()]:
-            said = complaint(compiler, language, header)
-            if said:
-                faults.append(f"{header} as {language} by {compiler}: {said}")
+            printed = complaint(compiler, language, header)
+            if printed:
+                faults.append(f"{header} as {language} by {compiler}: {printed}")
     if not headers:
         faults.append("no public header found: the check would be empty")
     names = sorted(name for names in compilers.values() for name in names.values())

@@ -115,12 +115,12 @@ class Cases(unittest.TestCase):
                 file.write(CASES)
             done = subprocess.run([sys.executable, "-B", os.path.join(ROOT, "tests", "support", "cases.py"), path],
                                   capture_output=True, text=True, check=False)
-        said = done.stdout + done.stderr
-        self.assertEqual(done.returncode, 0, said)
-        self.assertEqual(set(re.findall(r"^SKIP (.*)$", said, re.M)), {
+        printed = done.stdout + done.stderr
+        self.assertEqual(done.returncode, 0, printed)
+        self.assertEqual(set(re.findall(r"^SKIP (.*)$", printed, re.M)), {
             "Some.test_lacks: no gnuplot", "Decorated.test_a: no node", "Decorated.test_b: no node", "Late.test_c: no screen",
             "Late.test_d: no screen"})
-        self.assertIn("\nCASES 6\n", said)
+        self.assertIn("\nCASES 6\n", printed)
 
 
 if __name__ == "__main__":

@@ -69,7 +69,7 @@ class Packages(unittest.TestCase):
             os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
         return folder
 
-    def test_user_is_told_the_command(self):
+    def test_the_user_gets_the_command(self):
         path = self.machine({"dpkg-query": "exit 1", "id": "echo 1000", "apt-get": "echo must not run; exit 1",
                              "sudo": "exit 1"})
         done = call("build", path=path)
@@ -81,8 +81,8 @@ class Packages(unittest.TestCase):
         self.assertNotIn("must not run", done.stdout)
 
     def test_root_and_sudo_install(self):
-        for who in ({"id": "echo 0"}, {"id": "echo 1000", "sudo": 'shift; exec "$@"'}):
-            path = self.machine({"dpkg-query": "exit 1", "apt-get": WITH_LISTS, **who})
+        for user in ({"id": "echo 0"}, {"id": "echo 1000", "sudo": 'shift; exec "$@"'}):
+            path = self.machine({"dpkg-query": "exit 1", "apt-get": WITH_LISTS, **user})
             done = call("build", path=path)
             self.assertEqual(done.returncode, 2)
             self.assertIn(" install -y --no-install-recommends", done.stdout)
@@ -108,7 +108,7 @@ class Packages(unittest.TestCase):
             self.assertEqual("could not update its lists" in done.stderr, not times)
             self.assertNotRegex(done.stdout, r"(?m)^[01]$")
 
-    def test_user_without_lists_is_told_one_line_that_asks_for_the_number(self):
+    def test_a_user_without_lists_gets_one_line_that_finds_the_number(self):
         path = self.machine({"dpkg-query": "exit 1", "id": "echo 1000", "apt-get": WITHOUT_LISTS, "apt-cache": ARCHIVE})
         lines = [line for line in call("build", path=path).stdout.splitlines() if "apt-get" in line]
         self.assertEqual(len(lines), 1)
@@ -118,7 +118,7 @@ class Packages(unittest.TestCase):
         self.assertIn(" libclang-rt-19-dev-wasm32", typed)
         self.assertNotIn("@", typed)
 
-    def test_user_without_a_godot_is_told_what_to_type(self):
+    def test_a_user_without_godot_gets_the_command(self):
         there = {name: "exit 0" for name in ("ninja", "gcc", "pkg-config", "python3", "cmake", "clang", "wasm-ld", "npm", "debootstrap", "g++",
                                              "dpkg-shlibdeps", "file")}
         path = self.machine({"dpkg-query": "printf 'installed '", "id": "echo 1000", "sudo": "exit 1", **there})
@@ -188,10 +188,10 @@ class Table(unittest.TestCase):
         class Some:
             npm, tarball = staticmethod(lambda: "there is no npm"), staticmethod(lambda: None)
             debian = staticmethod(lambda: make_packages.run("sh", "-c", "echo no room >&2; exit 3"))
-        said, complained = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complained):
+        printed, complained = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(complained):
             self.assertEqual(make_packages.make_each(Some, ["npm", "debian", "tarball"]), 2)
-        self.assertEqual(said.getvalue(), "npm       NOT MADE: there is no npm\n"
+        self.assertEqual(printed.getvalue(), "npm       NOT MADE: there is no npm\n"
                                           "debian    NOT MADE: a command failed; see its output above\ntarball   made\n")
         self.assertIn("no room", complained.getvalue())
 

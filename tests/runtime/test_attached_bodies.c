@@ -131,7 +131,7 @@ END_TEST
 /* What nothing takes stays, nine seconds long, and nothing is added: at ten times the hit what is crushed
  * takes some, and what is wild is calmed. The slack is what the halves of a step, at which places and
  * velocities are known, leave open. */
-START_TEST(undamped_flesh_keeps_its_energy)
+START_TEST(an_undamped_soft_body_keeps_its_energy)
 {
   static const int which[] = {2, 3, 6, 8};
   static const float hits[] = {1, 10};
@@ -187,7 +187,7 @@ int main(void) {
   tcase_add_loop_test(tests, momentum_is_kept, 0, LIMBS);
   tcase_add_loop_test(tests, nothing_swings_up, 0, LIMBS);
   tcase_add_loop_test(tests, it_moves_as_in_fine_steps, 0, 4);
-  tcase_add_loop_test(tests, undamped_flesh_keeps_its_energy, 0, 8);
+  tcase_add_loop_test(tests, an_undamped_soft_body_keeps_its_energy, 0, 8);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -75,7 +75,7 @@ static uint32_t refusals(const scene *s, sbr_memory_use use) {
 }
 
 /* It goes on as if nobody had asked, and goes over as soon as it may. */
-START_TEST(without_memory_it_stays_on_its_detail_level_and_says_so)
+START_TEST(without_memory_the_detail_level_stays_and_is_reported)
 {
   const uint32_t to = _i ? DETAIL_BONES : DETAIL_FINE, from = _i ? DETAIL_FINE : DETAIL_BONES;
   harness_memory memory, plenty;
@@ -298,7 +298,7 @@ int main(void) {
   TCase *c = tcase_create("rooms");
   tcase_add_test(c, a_character_holds_what_its_detail_level_needs);
   tcase_add_test(c, ticks_ask_for_nothing_but_at_a_change);
-  tcase_add_loop_test(c, without_memory_it_stays_on_its_detail_level_and_says_so, 0, 2);
+  tcase_add_loop_test(c, without_memory_the_detail_level_stays_and_is_reported, 0, 2);
   tcase_add_test(c, a_crowd_far_off_holds_a_share_of_one_that_is_near);
   tcase_add_test(c, changes_survive_want_of_memory_at_every_call);
   tcase_add_test(c, threads_change_nothing);

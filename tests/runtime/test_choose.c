@@ -231,7 +231,7 @@ START_TEST(threads_and_recordings_agree)
 }
 END_TEST
 
-START_TEST(wrong_definitions_and_want_of_memory_are_told)
+START_TEST(wrong_definitions_and_failed_allocations_are_reported)
 {
   crowd c = make_crowd(NULL, NULL);
   sbr_detail_definition how = sbr_default_detail_definition();
@@ -271,7 +271,7 @@ int main(void) {
   tcase_add_test(c, a_view_that_turns_finds_it_ready);
   tcase_add_test(c, a_budget_is_kept_and_spent_on_what_is_near);
   tcase_add_test(c, threads_and_recordings_agree);
-  tcase_add_test(c, wrong_definitions_and_want_of_memory_are_told);
+  tcase_add_test(c, wrong_definitions_and_failed_allocations_are_reported);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -134,7 +134,7 @@ START_TEST(a_weight_map_scales_friction)
 }
 END_TEST
 
-START_TEST(sliding_slows_as_coulomb_says)
+START_TEST(sliding_slows_by_coulombs_law)
 {
   /* Down 40 degrees without friction it gains g sin; with it g (sin - mu cos). */
   double angle = 40 * pi / 180;
@@ -206,7 +206,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_body_thrown_down_is_never_left_in_the_ground);
   tcase_add_test(c, friction_holds_below_its_angle_and_lets_go_above);
   tcase_add_test(c, a_weight_map_scales_friction);
-  tcase_add_test(c, sliding_slows_as_coulomb_says);
+  tcase_add_test(c, sliding_slows_by_coulombs_law);
   tcase_add_test(c, restitution_gives_back_its_share);
   tcase_add_test(c, what_lies_in_the_ground_is_pushed_up_gently);
   suite_add_tcase(s, c);

@@ -61,7 +61,7 @@ START_TEST(all_that_polygons_use_is_sampled)
 END_TEST
 
 /* With one quad a side, no point of the surface lies between the corners: points of the level must. */
-START_TEST(faces_larger_than_the_elements_are_borne_by_points_of_the_level)
+START_TEST(faces_larger_than_the_elements_are_supported_by_points_of_the_level)
 {
   scene s = carried_box(1, SBF_PRESSURE_MODE_NONE);
   scene_start(&s);
@@ -291,7 +291,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("contact samples");
   TCase *c = tcase_create("contact samples");
   tcase_add_test(c, all_that_polygons_use_is_sampled);
-  tcase_add_test(c, faces_larger_than_the_elements_are_borne_by_points_of_the_level);
+  tcase_add_test(c, faces_larger_than_the_elements_are_supported_by_points_of_the_level);
   tcase_add_test(c, points_of_a_spring_level_need_no_samples);
   tcase_add_loop_test(c, a_push_is_a_force_at_that_place, 0, 2);
   tcase_add_loop_test(c, a_surface_beyond_its_lattice_stays_above_the_ground, 0, 6);

@@ -243,7 +243,7 @@ END_TEST
  * speak of. */
 static const struct { float soft_kg, rigid_kg; } hung[] = {{50, 0.05f}, {5, 0.05f}, {1, 1}, {0.01f, 10}};
 
-START_TEST(flesh_hangs_on_a_joint)
+START_TEST(a_soft_body_is_attached_to_a_joint)
 {
   scene s = weightless();
   s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
@@ -380,7 +380,7 @@ int main(void) {
   tcase_add_loop_test(tests, a_mass_swings_on_a_soft_spring, 0, 3);
   tcase_add_loop_test(tests, both_ends_of_a_spring_swing, 0, 3);
   tcase_add_loop_test(tests, a_load_presses_a_column, 0, 3);
-  tcase_add_loop_test(tests, flesh_hangs_on_a_joint, 0, sizeof hung / sizeof *hung);
+  tcase_add_loop_test(tests, a_soft_body_is_attached_to_a_joint, 0, sizeof hung / sizeof *hung);
   tcase_add_test(tests, the_same_bits_on_any_threads);
   tcase_add_loop_test(tests, jelly_about_a_bone_is_not_turned_inside_out, 0, 24);
   tcase_add_test(tests, they_sleep_together);

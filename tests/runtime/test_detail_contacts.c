@@ -52,7 +52,7 @@ static void go(pair *p, int tick, double deep) {
   sbr_character_set_drive(p->s.world, p->ids[0], tick < 480 ? speed : -1.0f, 0, 0);
 }
 
-START_TEST(who_is_alone_is_bones_and_comes_back_before_it_is_met)
+START_TEST(isolated_characters_use_bones_and_return_before_a_contact)
 {
   pair p = make(NULL, true);
   uint32_t contacts = 0;
@@ -106,7 +106,7 @@ START_TEST(what_the_host_asks_for_waits_until_nobody_is_near)
 END_TEST
 
 /* Pressed against each other, one goes from lattice to lattice. */
-START_TEST(who_touches_changes_its_lattice_and_goes_on_touching)
+START_TEST(characters_in_contact_change_the_lattice_and_stay_in_contact)
 {
   pair p = make(NULL, false), stays = make(NULL, false);
   double max = 0, max_staying = 0, min = 1e9;
@@ -175,9 +175,9 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("detail level meetings");
   TCase *c = tcase_create("detail level meetings");
-  tcase_add_test(c, who_is_alone_is_bones_and_comes_back_before_it_is_met);
+  tcase_add_test(c, isolated_characters_use_bones_and_return_before_a_contact);
   tcase_add_test(c, what_the_host_asks_for_waits_until_nobody_is_near);
-  tcase_add_test(c, who_touches_changes_its_lattice_and_goes_on_touching);
+  tcase_add_test(c, characters_in_contact_change_the_lattice_and_stay_in_contact);
   tcase_add_test(c, threads_and_snapshots_change_nothing);
   tcase_add_test(c, want_of_memory_leaves_the_world_as_it_was);
   suite_add_tcase(s, c);

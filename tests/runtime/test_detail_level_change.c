@@ -51,7 +51,7 @@ START_TEST(the_skin_does_not_jump)
 }
 END_TEST
 
-START_TEST(energy_does_not_rise_and_the_motion_goes_on)
+START_TEST(energy_does_not_rise_and_the_motion_continues)
 {
   const uint32_t from = (uint32_t)_i, to = 1 - from;
   scene s = detail_scene_walking(from), other = detail_scene_walking(to);
@@ -77,7 +77,7 @@ START_TEST(energy_does_not_rise_and_the_motion_goes_on)
 END_TEST
 
 /* A loose box that falls. */
-START_TEST(what_flies_goes_on_flying)
+START_TEST(flying_bodies_continue_to_fly)
 {
   scene s = detail_scene_begin(true), stays = detail_scene_begin(true);
   s.world_definition.has_gravity = stays.world_definition.has_gravity = true;
@@ -114,7 +114,7 @@ static void angular_velocity(const scene *s, float rad_s) {
 }
 
 /* Its momentum and its turning; in the coarse lattice it has 1.8 times the inertia. */
-START_TEST(what_spins_goes_on_spinning)
+START_TEST(rotating_bodies_continue_to_rotate)
 {
   static const float spins[3] = {1, 4, 12};
   scene s = detail_scene_begin(true);
@@ -269,9 +269,9 @@ int main(void) {
   Suite *s = suite_create("detail level change");
   TCase *c = tcase_create("detail level change");
   tcase_add_loop_test(c, the_skin_does_not_jump, 0, CHANGES);
-  tcase_add_loop_test(c, energy_does_not_rise_and_the_motion_goes_on, 0, 2);
-  tcase_add_test(c, what_flies_goes_on_flying);
-  tcase_add_loop_test(c, what_spins_goes_on_spinning, 0, 3);
+  tcase_add_loop_test(c, energy_does_not_rise_and_the_motion_continues, 0, 2);
+  tcase_add_test(c, flying_bodies_continue_to_fly);
+  tcase_add_loop_test(c, rotating_bodies_continue_to_rotate, 0, 3);
   tcase_add_test(c, away_goes_where_it_is_driven_and_comes_back);
   tcase_add_test(c, jiggle_follows_its_bone);
   tcase_add_test(c, snapshots_hold_detail_levels_and_fades);

@@ -4,7 +4,7 @@
 #include "detail_scenes.h"
 #include "harness.h"
 
-START_TEST(a_ladder_has_levels_jiggle_bones_and_away)
+START_TEST(detail_levels_include_jiggle_bones_and_away)
 {
   scene s = detail_scene_begin(false);
   scene_start(&s);
@@ -120,7 +120,7 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("detail levels");
   TCase *c = tcase_create("detail levels");
-  tcase_add_test(c, a_ladder_has_levels_jiggle_bones_and_away);
+  tcase_add_test(c, detail_levels_include_jiggle_bones_and_away);
   tcase_add_test(c, without_detail_levels_or_with_a_body_that_keeps_its_shape_there_is_one_level);
   tcase_add_test(c, what_nothing_holds_has_soft_detail_levels_alone);
   tcase_add_test(c, a_level_that_is_off_by_a_quarter_of_its_body_is_no_detail_level);

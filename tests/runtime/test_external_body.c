@@ -157,7 +157,7 @@ START_TEST(several_bear_it_together)
 END_TEST
 
 /* Not told of for some ticks it goes on as it was, and falls. */
-START_TEST(untold_it_goes_on)
+START_TEST(without_new_commands_it_continues)
 {
   scene s = flesh_begin();
   add_attached(&s, 0, CUBE, 0, 20000);
@@ -215,7 +215,7 @@ int main(void) {
   tcase_add_loop_test(tests, weight_presses_as_it_should, 0, HARNESS_FEW(2, 1));
   tcase_add_test(tests, what_a_floor_holds_bears);
   tcase_add_loop_test(tests, several_bear_it_together, 0, 2);
-  tcase_add_test(tests, untold_it_goes_on);
+  tcase_add_test(tests, without_new_commands_it_continues);
   tcase_add_test(tests, bad_ones_are_refused);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

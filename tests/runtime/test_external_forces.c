@@ -312,7 +312,7 @@ START_TEST(a_plate_falls_no_faster_than_the_air_lets_it)
 }
 END_TEST
 
-START_TEST(fields_are_as_the_specification_says)
+START_TEST(fields_match_the_specification)
 {
   const sbf_vec3 x = {2, 0, 0}, v = {0, 3, 0};
   sbf_force_field f;
@@ -375,7 +375,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, a_sheet_bends_under_its_weight, 0, SCHEME_COUNT);
   tcase_add_test(c, a_free_sheet_that_bends_keeps_momentum);
   tcase_add_loop_test(c, a_plate_falls_no_faster_than_the_air_lets_it, 0, SCHEME_COUNT);
-  tcase_add_test(c, fields_are_as_the_specification_says);
+  tcase_add_test(c, fields_match_the_specification);
   tcase_add_loop_test(c, a_field_pulls_in_the_anchor_frame, 0, SCHEME_COUNT);
   suite_add_tcase(s, c);
   return s;

@@ -178,7 +178,7 @@ START_TEST(parts_of_one_that_got_through_each_other_come_apart)
 END_TEST
 
 /* Two that lie through each other at rest stay as they are. */
-START_TEST(parts_that_overlap_at_rest_stay_quiet)
+START_TEST(parts_that_overlap_at_rest_stay_at_rest)
 {
   scene s = begin_two_bars((sbf_vec3){0.02f, 0.03f * (float)_i, 0.05f});
   static sbf_vec3 before[MAX], after[MAX];
@@ -200,7 +200,7 @@ int main(void) {
   tcase_add_loop_test(tests, bars_that_lie_crosswise_come_apart, 0, sizeof positions / sizeof *positions);
   tcase_add_test(tests, the_way_out_is_of_the_same_bits);
   tcase_add_loop_test(tests, parts_of_one_that_got_through_each_other_come_apart, 0, 3);
-  tcase_add_loop_test(tests, parts_that_overlap_at_rest_stay_quiet, 0, 3);
+  tcase_add_loop_test(tests, parts_that_overlap_at_rest_stay_at_rest, 0, 3);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -117,7 +117,7 @@ START_TEST(a_sole_lies_as_a_board_does)
 }
 END_TEST
 
-START_TEST(it_looks_no_farther_than_it_may_go)
+START_TEST(steering_sees_no_farther_than_its_range)
 {
   double farthest[2];
   const float speeds[2] = {0.1f, 0.6f};
@@ -288,7 +288,7 @@ int main(void) {
   tcase_add_test(tests, slopes_are_walked_unless_they_are_too_steep);
   tcase_add_test(tests, feet_and_body_tilt_with_the_ground);
   tcase_add_test(tests, a_sole_lies_as_a_board_does);
-  tcase_add_test(tests, it_looks_no_farther_than_it_may_go);
+  tcase_add_test(tests, steering_sees_no_farther_than_its_range);
   tcase_add_test(tests, feet_go_over_what_lies_between);
   tcase_add_test(tests, a_wall_is_not_climbed);
   tcase_add_test(tests, without_a_chest_it_pitches_as_its_feet_lie);

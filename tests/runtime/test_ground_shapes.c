@@ -18,7 +18,7 @@ START_TEST(a_plane_goes_through_its_point)
 }
 END_TEST
 
-START_TEST(a_height_field_is_bilinear_and_goes_on_level)
+START_TEST(a_height_field_is_bilinear_and_continues_level)
 {
   static const float heights[6] = {0, 1, 2, 0, 1, 4};
   const sbr_height_field field = {heights, 3, 2, 0.5, 10, -1};
@@ -68,7 +68,7 @@ int main(void) {
   Suite *suite = suite_create("ground_shapes");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_plane_goes_through_its_point);
-  tcase_add_test(tests, a_height_field_is_bilinear_and_goes_on_level);
+  tcase_add_test(tests, a_height_field_is_bilinear_and_continues_level);
   tcase_add_test(tests, obstacles_stand_on_their_ground);
   tcase_add_test(tests, rays_are_the_host_s);
   suite_add_tcase(suite, tests);

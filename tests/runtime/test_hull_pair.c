@@ -22,7 +22,7 @@ static void arena_begin(sbfi_arena *arena) {
 }
 
 /* A smaller box on a larger one: four places, its own corners, with the gap between the faces. */
-START_TEST(faces_meet_in_four_places)
+START_TEST(parallel_faces_have_four_contacts)
 {
   sbfi_arena arena;
   arena_begin(&arena);
@@ -73,7 +73,7 @@ START_TEST(a_tip_is_in_contact)
 END_TEST
 
 /* Two beams crosswise, each on an edge: one place. */
-START_TEST(edges_meet_in_one_place)
+START_TEST(crossing_edges_have_one_contact)
 {
   sbfi_arena arena;
   arena_begin(&arena);
@@ -127,9 +127,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("hull_pair");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, faces_meet_in_four_places);
+  tcase_add_test(tests, parallel_faces_have_four_contacts);
   tcase_add_test(tests, a_tip_is_in_contact);
-  tcase_add_test(tests, edges_meet_in_one_place);
+  tcase_add_test(tests, crossing_edges_have_one_contact);
   tcase_add_test(tests, the_way_out_is_the_least);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

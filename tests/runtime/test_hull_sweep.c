@@ -65,7 +65,7 @@ START_TEST(a_fast_box_passes_beside_a_plate)
 END_TEST
 
 /* Two boxes at each other, 200 m/s between them. */
-START_TEST(two_fast_boxes_meet)
+START_TEST(two_fast_boxes_collide)
 {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
@@ -91,7 +91,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, a_fast_box_does_not_pass_a_thin_plate, 0, 20);
   tcase_add_loop_test(tests, a_fast_box_passes_beside_a_plate, 0, 10);
-  tcase_add_loop_test(tests, two_fast_boxes_meet, 0, 10);
+  tcase_add_loop_test(tests, two_fast_boxes_collide, 0, 10);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

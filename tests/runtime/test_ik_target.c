@@ -63,7 +63,7 @@ static sbr_ik_target target_at(sbf_vec3 at, float weight) {
 
 static const sbf_vec3 wanted = {0.15f, 0.15f, 0.3f};
 
-START_TEST(a_foot_goes_where_it_is_told_and_back)
+START_TEST(a_foot_moves_to_its_target_and_back)
 {
   walker w = begin();
   ticks(&w, 2);
@@ -121,7 +121,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("ik_target");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_foot_goes_where_it_is_told_and_back);
+  tcase_add_test(tests, a_foot_moves_to_its_target_and_back);
   tcase_add_test(tests, weights_are_kept_between_none_and_all);
   tcase_add_test(tests, targets_that_mean_nothing_are_ignored);
   suite_add_tcase(suite, tests);

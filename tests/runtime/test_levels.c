@@ -24,7 +24,7 @@ START_TEST(springs_and_solids_are_stepped_once_they_are_loaded)
 }
 END_TEST
 
-START_TEST(a_level_has_gone_wrong_by_more_than_a_quarter_of_its_body)
+START_TEST(a_level_fails_above_an_error_of_a_quarter_of_its_body)
 {
   sbf_level level = of_model(SBF_ELASTIC_MODEL_SPRINGS);
   ck_assert(!sbri_level_has_failed(&level, 2)); /* it states nothing */
@@ -51,7 +51,7 @@ int main(void) {
   Suite *suite = suite_create("levels");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, springs_and_solids_are_stepped_once_they_are_loaded);
-  tcase_add_test(tests, a_level_has_gone_wrong_by_more_than_a_quarter_of_its_body);
+  tcase_add_test(tests, a_level_fails_above_an_error_of_a_quarter_of_its_body);
   tcase_add_test(tests, what_is_not_stepped_is_no_detail_level_however_near);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

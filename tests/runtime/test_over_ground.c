@@ -33,7 +33,7 @@ static double rising(const sbr_ground *ground, double x, double z, sbf_vec3 *nor
   return 2 * x + 3 * z;
 }
 
-START_TEST(the_ground_is_looked_for_under_a_place_as_told_from_the_origin)
+START_TEST(the_ground_is_found_relative_to_the_origin)
 {
   const sbr_ground ground = {rising, NULL, {0}};
   const sbri_gait_input input = {.scale = 1, .ground = &ground, .origin = {1e6, 5e6, 1e6}};
@@ -54,7 +54,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, angles_are_brought_into_one_turn);
   tcase_add_test(tests, a_quarter_turn_leads_from_ahead_to_the_left);
-  tcase_add_test(tests, the_ground_is_looked_for_under_a_place_as_told_from_the_origin);
+  tcase_add_test(tests, the_ground_is_found_relative_to_the_origin);
   tcase_add_test(tests, flat_distances_know_no_height);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -61,7 +61,7 @@ static double aside_of(const placed *lower, const placed *upper) {
 }
 
 /* What presses in is met as it does, so that faces are near and none looks for a way out. */
-START_TEST(a_blow_drives_no_deeper_than_faces_are_looked_for)
+START_TEST(fast_bodies_penetrate_no_deeper_than_the_face_search)
 {
   double height = _i + 1, max = 0, aside = 0;
   sbr_character_id upper;
@@ -105,7 +105,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("push");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, a_blow_drives_no_deeper_than_faces_are_looked_for, 0, 2);
+  tcase_add_loop_test(tests, fast_bodies_penetrate_no_deeper_than_the_face_search, 0, 2);
   tcase_add_loop_test(tests, cubes_that_fall_on_each_other_stand, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

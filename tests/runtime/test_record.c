@@ -84,7 +84,7 @@ START_TEST(what_is_played_ends_in_the_same_state)
 }
 END_TEST
 
-START_TEST(another_world_is_told)
+START_TEST(another_world_is_reported)
 {
   static tape t;
   record(&t);
@@ -136,7 +136,7 @@ START_TEST(damaged_recordings_do_no_harm)
 }
 END_TEST
 
-START_TEST(characters_made_meanwhile_are_told)
+START_TEST(characters_created_meanwhile_are_reported)
 {
   static tape t;
   scene s = make(SBR_INSTRUCTIONS_AUTOMATIC);
@@ -162,9 +162,9 @@ int main(void) {
   Suite *s = suite_create("record");
   TCase *c = tcase_create("record");
   tcase_add_loop_test(c, what_is_played_ends_in_the_same_state, 0, 2);
-  tcase_add_test(c, another_world_is_told);
+  tcase_add_test(c, another_world_is_reported);
   tcase_add_loop_test(c, damaged_recordings_do_no_harm, 0, 2);
-  tcase_add_test(c, characters_made_meanwhile_are_told);
+  tcase_add_test(c, characters_created_meanwhile_are_reported);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -47,7 +47,7 @@ static kept measure(const scene *s) {
       health.kinetic_j + health.elastic_j};
 }
 
-START_TEST(momentum_spin_and_energy_are_kept)
+START_TEST(momentum_angular_momentum_and_energy_are_conserved)
 {
   scene s = make_block(60);
   s.model_options.substeps = 8;
@@ -115,7 +115,7 @@ END_TEST
 
 /* Regions of three points an edge, s^2 = 2/3 step^2: E = rho w^2 s^2. A bar of them hangs rho g L^2 / 2 E
  * down. Its ends, where regions are cut off, and the points' size beside the length, are some per cent. */
-START_TEST(a_hanging_bar_is_as_stiff_as_the_modulus_says)
+START_TEST(a_hanging_bar_has_the_stiffness_of_its_modulus)
 {
   const uint32_t counts[3] = {4, 41, 4};
   const float step = 0.05f, w = 300;
@@ -279,9 +279,9 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("region forces");
   TCase *c = tcase_create("region forces");
-  tcase_add_test(c, momentum_spin_and_energy_are_kept);
+  tcase_add_test(c, momentum_angular_momentum_and_energy_are_conserved);
   tcase_add_test(c, one_region_swings_with_its_own_frequency);
-  tcase_add_test(c, a_hanging_bar_is_as_stiff_as_the_modulus_says);
+  tcase_add_test(c, a_hanging_bar_has_the_stiffness_of_its_modulus);
   tcase_add_loop_test(c, flat_and_mirrored_starts_come_back, 0, 2);
   tcase_add_test(c, the_lowest_mode_is_damped_by_the_ratio);
   tcase_add_test(c, damping_of_their_own_leaves_rigid_motion_alone);

@@ -107,7 +107,7 @@ START_TEST(what_falls_coarsely_stays_whole_and_lies)
 END_TEST
 
 /* Steps that a model says itself stay as many; in flight a quarter. */
-START_TEST(steps_that_are_asked_for_stay)
+START_TEST(requested_steps_are_kept)
 {
   scene s = whole_person();
   s.model_options.rigid_coarse = true, s.model_options.rigid_substeps = 16;
@@ -148,7 +148,7 @@ int main(void) {
   Suite *suite = suite_create("rigid coarse");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, what_falls_coarsely_stays_whole_and_lies, 0, 4);
-  tcase_add_test(tests, steps_that_are_asked_for_stay);
+  tcase_add_test(tests, requested_steps_are_kept);
   tcase_add_test(tests, threads_change_nothing);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -69,7 +69,7 @@ START_TEST(sliding_is_coulombs)
 END_TEST
 
 /* h e^2. */
-START_TEST(bounces_rise_as_restitution_says)
+START_TEST(bounces_rise_by_the_restitution)
 {
   const float e[3] = {0, 0.5f, 0.8f};
   for (int i = 0; i < 3; i++) {
@@ -118,7 +118,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, friction_holds_to_its_angle);
   tcase_add_test(tests, sliding_is_coulombs);
-  tcase_add_test(tests, bounces_rise_as_restitution_says);
+  tcase_add_test(tests, bounces_rise_by_the_restitution);
   tcase_add_test(tests, boxes_come_to_rest);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

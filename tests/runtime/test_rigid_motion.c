@@ -71,7 +71,7 @@ START_TEST(damping_leaves_it_alone)
 }
 END_TEST
 
-START_TEST(points_on_a_line_have_no_spin_about_it)
+START_TEST(points_on_a_line_have_no_angular_velocity_about_it)
 {
   make((sbf_vec3){0, 0, 0}, (sbf_vec3){0, 0, 0}, 0.1f);
   for (uint32_t i = 0; i < POINTS; i++) positions[i] = (sbri_point){(float)i, 0, 0, 0};
@@ -119,7 +119,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_rigid_motion_is_found);
   tcase_add_test(c, damping_leaves_it_alone);
   tcase_add_test(c, rates_of_their_own_leave_it_alone);
-  tcase_add_test(c, points_on_a_line_have_no_spin_about_it);
+  tcase_add_test(c, points_on_a_line_have_no_angular_velocity_about_it);
   suite_add_tcase(s, c);
   return s;
 }

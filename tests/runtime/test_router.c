@@ -57,7 +57,7 @@ START_TEST(what_is_stiff_is_not)
 }
 END_TEST
 
-START_TEST(what_is_asked_for_is_done)
+START_TEST(requests_are_applied)
 {
   scene s = section(8e4f);
   s.model_options.substeps = 9;
@@ -138,7 +138,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("router");
   tcase_add_test(c, what_is_soft_is_stepped_explicitly);
   tcase_add_test(c, what_is_stiff_is_not);
-  tcase_add_test(c, what_is_asked_for_is_done);
+  tcase_add_test(c, requests_are_applied);
   tcase_add_test(c, what_is_thrown_about_recovers_and_is_let_go);
   tcase_add_test(c, one_inverted_element_is_trouble);
   tcase_add_test(c, what_is_inside_out_is_whole_within_a_second);

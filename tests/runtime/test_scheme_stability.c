@@ -267,7 +267,7 @@ END_TEST
 
 /* What is lost is mended where it is: a loose body that lies far from its character does not fall from the
  * sky again. */
-START_TEST(loose_bodies_are_mended_where_they_lie)
+START_TEST(loose_bodies_are_repaired_in_their_position)
 {
   scene s = section(schemes[_i]);
   s.world_definition.ground = sbr_ground_flat(0);
@@ -305,7 +305,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, pins_may_jump, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, elements_may_be_listed_the_other_way_round, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, heavy_hangs_on_light, 0, SCHEME_COUNT);
-  tcase_add_loop_test(c, loose_bodies_are_mended_where_they_lie, 0, EXPLICIT_EULER);
+  tcase_add_loop_test(c, loose_bodies_are_repaired_in_their_position, 0, EXPLICIT_EULER);
   tcase_add_loop_test(c, a_surface_inside_out_does_not_blow_up, 0, SCHEME_COUNT);
   suite_add_tcase(s, c);
   return s;

@@ -64,7 +64,7 @@ static const doubt_case cases[] = {
     {false, 8e4f, SBF_SCHEME_BLOCK_DESCENT, 0, "damping ratio of 0.14"},
 };
 
-START_TEST(what_is_known_to_be_wrong_is_told)
+START_TEST(known_errors_are_reported)
 {
   const doubt_case *is = &cases[_i];
   scene s = make(is->solid, is->modulus, is->scheme, is->substeps);
@@ -94,7 +94,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("scheme_doubts");
   TCase *c = tcase_create("scheme_doubts");
-  tcase_add_loop_test(c, what_is_known_to_be_wrong_is_told, 0, sizeof cases / sizeof *cases);
+  tcase_add_loop_test(c, known_errors_are_reported, 0, sizeof cases / sizeof *cases);
   tcase_add_test(c, a_stiff_body_is_stepped_explicitly);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -145,7 +145,7 @@ START_TEST(explicit_euler_fails_where_it_must)
 }
 END_TEST
 
-START_TEST(heun_keeps_the_error_it_is_told)
+START_TEST(heun_keeps_its_error_tolerance)
 {
   double errors[3];
   for (int k = 0; k < 3; k++) {
@@ -498,7 +498,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, a_spring_swings_and_fades_as_the_scheme_is_predicted_to, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, errors_fall_with_the_order, 0, SCHEME_COUNT);
   tcase_add_test(c, explicit_euler_fails_where_it_must);
-  tcase_add_test(c, heun_keeps_the_error_it_is_told);
+  tcase_add_test(c, heun_keeps_its_error_tolerance);
   tcase_add_test(c, heun_keeps_the_error_of_the_file);
   tcase_add_test(c, heun_keeps_the_bounds_of_the_file);
   tcase_add_loop_test(c, a_body_falls_as_at_the_origin, 0, SCHEME_COUNT);

@@ -31,7 +31,7 @@ static float over(const scene *s) {
 }
 
 /* What falls across another part of the same body does not pass it; without `self` it does. */
-START_TEST(rims_meet_their_own_body)
+START_TEST(rims_collide_with_their_own_body)
 {
   static sbf_vec3 at[2 * PART];
   const uint32_t pinned[4] = {0, 1, PART - 2, PART - 1};
@@ -143,7 +143,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("self_edges");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, rims_meet_their_own_body);
+  tcase_add_test(tests, rims_collide_with_their_own_body);
   tcase_add_test(tests, a_strip_folds_to_three_legs);
   tcase_add_loop_test(tests, three_legs_lie_still, 0, 3);
   suite_add_tcase(suite, tests);

@@ -84,7 +84,7 @@ START_TEST(a_block_stays_where_friction_holds_it)
 }
 END_TEST
 
-START_TEST(a_block_slides_as_coulomb_says)
+START_TEST(a_block_slides_by_coulombs_law)
 {
   static const double fractions[] = {1.05, 1.2};
   slope_case which = slope_case_of(_i);
@@ -103,7 +103,7 @@ int main(void) {
   Suite *suite = suite_create("slide_damping");
   TCase *c = tcase_create("slide_damping");
   tcase_add_loop_test(c, a_block_stays_where_friction_holds_it, 0, KINDS * SCHEMES * COEFFICIENTS);
-  tcase_add_loop_test(c, a_block_slides_as_coulomb_says, 0, KINDS * SCHEMES * COEFFICIENTS);
+  tcase_add_loop_test(c, a_block_slides_by_coulombs_law, 0, KINDS * SCHEMES * COEFFICIENTS);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

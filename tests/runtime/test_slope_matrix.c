@@ -81,7 +81,7 @@ static scene begin_brick(const slope_brick *brick, double friction, double angle
   return s;
 }
 
-START_TEST(a_brick_does_as_coulomb_says)
+START_TEST(a_brick_follows_coulombs_law)
 {
   const slope_brick *brick = &bricks[_i % BRICKS];
   double friction = coefficients[_i / BRICKS];
@@ -111,7 +111,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("slope_matrix");
   TCase *c = tcase_create("slope_matrix");
-  tcase_add_loop_test(c, a_brick_does_as_coulomb_says, 0, BRICKS * 3);
+  tcase_add_loop_test(c, a_brick_follows_coulombs_law, 0, BRICKS * 3);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

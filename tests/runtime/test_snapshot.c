@@ -26,7 +26,7 @@ static scene walker(void) {
   return walker_by(SBF_SCHEME_AUTOMATIC);
 }
 
-START_TEST(a_restored_world_goes_on_alike)
+START_TEST(a_restored_world_continues_equally)
 {
   scene s = walker_by(schemes[_i]);
   scene_ticks(&s, 37);
@@ -100,7 +100,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("snapshot");
   TCase *c = tcase_create("snapshot");
-  tcase_add_loop_test(c, a_restored_world_goes_on_alike, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, a_restored_world_continues_equally, 0, SCHEME_COUNT);
   tcase_add_test(c, two_worlds_agree_to_the_bit);
   tcase_add_test(c, what_does_not_fit_is_refused);
   suite_add_tcase(s, c);

@@ -128,7 +128,7 @@ START_TEST(a_velocity_that_is_set_is_had)
 END_TEST
 
 /* 2.4 ticks: of the third a part. */
-START_TEST(a_force_acts_for_as_long_as_it_says)
+START_TEST(a_force_acts_for_its_duration)
 {
   scene s = cube(schemes[_i], false, 0, 1);
   const sbf_vec3 force = {5, 0, -20};
@@ -406,7 +406,7 @@ int main(void) {
   tcase_add_loop_test(c, an_impulse_is_momentum_gained, 0, 2);
   tcase_add_test(c, an_impulse_on_the_whole_body_deforms_nothing);
   tcase_add_test(c, a_velocity_that_is_set_is_had);
-  tcase_add_loop_test(c, a_force_acts_for_as_long_as_it_says, 0, SCHEMES);
+  tcase_add_loop_test(c, a_force_acts_for_its_duration, 0, SCHEMES);
   tcase_add_loop_test(c, pins_bear_what_hangs_on_them, 0, SCHEMES + 1);
   tcase_add_loop_test(c, both_ends_bear_half_a_bar, 0, SCHEMES);
   tcase_add_loop_test(c, what_swings_gains_what_pins_and_weight_give, 0, 2);

@@ -159,7 +159,7 @@ START_TEST(friction_holds_to_its_angle)
 END_TEST
 
 /* A point dropped by a metre rises by e^2 of it. */
-START_TEST(bounces_rise_as_restitution_says)
+START_TEST(bounces_rise_by_the_restitution)
 {
   const float e[3] = {0, 0.5f, 0.8f};
   for (int i = 0; i < 3; i++) {
@@ -278,7 +278,7 @@ int main(void) {
   tcase_add_loop_test(tests, no_point_goes_into_a_ball, 0, 3);
   tcase_add_test(tests, a_fast_ball_takes_a_sheet_along);
   tcase_add_test(tests, friction_holds_to_its_angle);
-  tcase_add_test(tests, bounces_rise_as_restitution_says);
+  tcase_add_test(tests, bounces_rise_by_the_restitution);
   tcase_add_test(tests, a_moving_board_carries_and_a_filter_lets_through);
   tcase_add_test(tests, what_is_inside_finds_its_way_out);
   tcase_add_test(tests, a_sleeper_wakes_when_its_bed_goes);

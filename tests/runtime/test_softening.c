@@ -102,7 +102,7 @@ START_TEST(a_sliver_does_not_soften_its_neighbours)
 END_TEST
 
 /* What is asked for is done, or refused. */
-START_TEST(asked_for_schemes_keep_the_moduli)
+START_TEST(chosen_schemes_keep_the_moduli)
 {
   scene s = make(1e12f, 0.3f, SBF_SCHEME_SYMPLECTIC);
   sbf_diagnostic error;
@@ -123,7 +123,7 @@ int main(void) {
   tcase_add_loop_test(c, what_falls_gains_no_energy, 0, FALLS);
   tcase_add_loop_test(c, no_more_than_the_budget_asks_for, 0, 3);
   tcase_add_test(c, a_sliver_does_not_soften_its_neighbours);
-  tcase_add_test(c, asked_for_schemes_keep_the_moduli);
+  tcase_add_test(c, chosen_schemes_keep_the_moduli);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -218,7 +218,7 @@ START_TEST(the_skin_opens_and_follows)
 }
 END_TEST
 
-START_TEST(want_of_room_is_told)
+START_TEST(insufficient_storage_is_reported)
 {
   begin(SBF_SCHEME_SYMPLECTIC, 1);
   event_log log = {.torn_count = 0};
@@ -281,7 +281,7 @@ int main(void) {
   TCase *c = tcase_create("split");
   tcase_add_loop_test(c, a_bar_tears_in_two_where_it_is_weakest, 0, 3);
   tcase_add_test(c, the_skin_opens_and_follows);
-  tcase_add_test(c, want_of_room_is_told);
+  tcase_add_test(c, insufficient_storage_is_reported);
   tcase_add_loop_test(c, a_snapshot_holds_the_tear, 0, 3);
   tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 3);
   tcase_add_test(c, memory_may_run_out);

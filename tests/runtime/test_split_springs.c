@@ -212,7 +212,7 @@ START_TEST(every_width_gives_the_same_bits)
 END_TEST
 
 /* Room for one copy, which the second time is taken. */
-START_TEST(want_of_room_is_told)
+START_TEST(insufficient_storage_is_reported)
 {
   begin(SBF_SCHEME_SYMPLECTIC, 1);
   scene_ticks(&s, 60);
@@ -274,7 +274,7 @@ int main(void) {
   tcase_add_loop_test(c, what_never_hung_together_stays, 0, 3);
   tcase_add_loop_test(c, a_snapshot_holds_the_split, 0, 3);
   tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 3);
-  tcase_add_test(c, want_of_room_is_told);
+  tcase_add_test(c, insufficient_storage_is_reported);
   tcase_add_test(c, where_nothing_can_tear_no_room_is_kept);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(suite, c);

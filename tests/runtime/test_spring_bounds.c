@@ -143,7 +143,7 @@ START_TEST(without_a_rate_nothing_flows)
 }
 END_TEST
 
-START_TEST(a_torn_spring_stops_and_is_told)
+START_TEST(a_torn_spring_stops_and_is_reported)
 {
   scene s = hanging(_i, 0);
   set_of(&s)->tear_strain = 0.3f;
@@ -237,7 +237,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, a_limit_keeps_momentum, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_yielding_spring_flows, 0, SCHEME_COUNT);
   tcase_add_test(c, without_a_rate_nothing_flows);
-  tcase_add_loop_test(c, a_torn_spring_stops_and_is_told, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, a_torn_spring_stops_and_is_reported, 0, SCHEME_COUNT);
   tcase_add_test(c, events_of_tears_are_bounded);
   tcase_add_test(c, weight_maps_move_the_bounds);
   suite_add_tcase(s, c);

@@ -70,7 +70,7 @@ START_TEST(strings_only_pull)
 END_TEST
 
 /* Springs that bear the body's weight where it was authored do so too where they are pressed. */
-START_TEST(a_weight_is_borne_by_pushing)
+START_TEST(a_weight_is_supported_by_contact_impulses)
 {
   static const float ratio = 0.25f;
   scene s = mass_on_a_spring(_i, &ratio, -PULL_M_S2, 0);
@@ -88,7 +88,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("spring_forces");
   tcase_add_loop_test(c, pressed_springs_have_their_own_stiffness, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, strings_only_pull, 0, SCHEME_COUNT);
-  tcase_add_loop_test(c, a_weight_is_borne_by_pushing, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, a_weight_is_supported_by_contact_impulses, 0, SCHEME_COUNT);
   suite_add_tcase(s, c);
   return s;
 }

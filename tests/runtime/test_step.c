@@ -119,7 +119,7 @@ START_TEST(bones_that_jump_take_their_bodies_along)
 }
 END_TEST
 
-START_TEST(a_quarter_second_hitch_is_survived)
+START_TEST(a_frame_of_a_quarter_second_is_survived)
 {
   scene s = walker();
   sbr_character_set_drive(s.world, s.character, 1.5f, 0, 2);
@@ -140,7 +140,7 @@ static Suite *suite(void) {
   tcase_add_test(c, numbers_that_are_none_are_recovered_from);
   tcase_add_test(c, a_body_inside_out_comes_back);
   tcase_add_test(c, bones_that_jump_take_their_bodies_along);
-  tcase_add_test(c, a_quarter_second_hitch_is_survived);
+  tcase_add_test(c, a_frame_of_a_quarter_second_is_survived);
   suite_add_tcase(s, c);
   return s;
 }

@@ -200,7 +200,7 @@ START_TEST(a_pendulum_chain_swings_without_gain)
 }
 END_TEST
 
-START_TEST(damping_takes_what_its_ratio_says)
+START_TEST(damping_follows_its_ratio)
 {
   scene s = oscillator(2, 50, 1);
   scene_body(&s, 0)->attributes.damping_ratio = 0.1f;
@@ -293,7 +293,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_pendulum_keeps_its_period);
   tcase_add_test(c, a_hanging_chain_stretches_by_its_weight);
   tcase_add_test(c, a_pendulum_chain_swings_without_gain);
-  tcase_add_test(c, damping_takes_what_its_ratio_says);
+  tcase_add_test(c, damping_follows_its_ratio);
   tcase_add_test(c, springs_damp_their_own_stretching);
   tcase_add_test(c, a_damped_body_in_free_flight_stays_at_rest);
   tcase_add_test(c, the_bound_of_an_impact_s_speed_holds);

@@ -101,7 +101,7 @@ START_TEST(damping_straightens_it_at_rest)
 }
 END_TEST
 
-START_TEST(links_keep_the_spacing_asked_for)
+START_TEST(links_keep_the_requested_spacing)
 {
   static const float spacing[BONES] = {0.2f, 0.3f, 0.1f, 0.25f, 0.2f, 0.2f, 0.4f, 0.2f};
   gait_stage s;
@@ -235,7 +235,7 @@ int main(void) {
   tcase_add_test(tests, the_body_goes_where_the_head_went);
   tcase_add_test(tests, the_bend_is_bounded);
   tcase_add_test(tests, damping_straightens_it_at_rest);
-  tcase_add_test(tests, links_keep_the_spacing_asked_for);
+  tcase_add_test(tests, links_keep_the_requested_spacing);
   tcase_add_test(tests, a_swimmer_keeps_its_height);
   tcase_add_test(tests, a_lagging_chain_keeps_its_direction_for_a_while);
   tcase_add_test(tests, it_lies_on_the_ground);

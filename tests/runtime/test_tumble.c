@@ -155,7 +155,7 @@ START_TEST(a_plank_lies_across_nosings)
 END_TEST
 
 /* A cube whose middle is beyond a nosing, over the step below, meets the nosing as it falls on it. */
-START_TEST(what_hangs_over_a_nosing_meets_it)
+START_TEST(parts_over_a_nosing_touch_it)
 {
   const float half = 0.05f;
   scene s = rigid_begin();
@@ -270,7 +270,7 @@ int main(void) {
   tcase_add_loop_test(tests, a_person_falls_down_stairs_of_the_ground, 0, 4);
   tcase_add_loop_test(tests, all_that_fall_down_stairs_of_the_ground_come_to_rest, 0, 2);
   tcase_add_loop_test(tests, a_plank_lies_across_nosings, 0, 2);
-  tcase_add_test(tests, what_hangs_over_a_nosing_meets_it);
+  tcase_add_test(tests, parts_over_a_nosing_touch_it);
   tcase_add_loop_test(tests, what_tips_does_not_fall_asleep, 0, 2);
   tcase_add_loop_test(tests, what_swings_out_sleeps, 0, 2);
   tcase_add_test(tests, threads_change_nothing);

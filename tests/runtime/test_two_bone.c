@@ -18,7 +18,7 @@ static sbf_vec3 next_point(uint32_t *seed, float scale) {
   return sbri_vec3(scale * x, scale * y, scale * z);
 }
 
-START_TEST(reachable_targets_are_met)
+START_TEST(reachable_targets_are_reached)
 {
   uint32_t seed = 1;
   int hits = 0;
@@ -138,7 +138,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("two_bone");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, reachable_targets_are_met);
+  tcase_add_test(tests, reachable_targets_are_reached);
   tcase_add_test(tests, knee_lies_towards_the_pole);
   tcase_add_test(tests, extension_is_eased_without_a_jump);
   tcase_add_test(tests, degenerate_input_stays_finite);

@@ -44,7 +44,7 @@ START_TEST(nothing_is_left_out_of_what_it_does)
 }
 END_TEST
 
-START_TEST(what_it_does_not_do_is_told)
+START_TEST(unsupported_parts_are_reported)
 {
   scene s = section();
   sbf_attributes *is = &scene_body(&s, 0)->attributes;
@@ -73,7 +73,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("left out");
   TCase *c = tcase_create("left out");
   tcase_add_test(c, nothing_is_left_out_of_what_it_does);
-  tcase_add_test(c, what_it_does_not_do_is_told);
+  tcase_add_test(c, unsupported_parts_are_reported);
   suite_add_tcase(s, c);
   return s;
 }

@@ -27,7 +27,7 @@ static void shake(scene *s, double *low, double *high) {
   }
 }
 
-START_TEST(the_volume_is_kept_where_it_is_asked_for)
+START_TEST(the_volume_is_kept_on_request)
 {
   double low, high;
   scene plain = section(SBF_PRESSURE_MODE_NONE), kept = section(SBF_PRESSURE_MODE_VOLUME);
@@ -152,7 +152,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("volume table");
   TCase *c = tcase_create("volume table");
-  tcase_add_test(c, the_volume_is_kept_where_it_is_asked_for);
+  tcase_add_test(c, the_volume_is_kept_on_request);
   tcase_add_test(c, keeping_it_moves_no_body);
   tcase_add_test(c, much_volume_comes_back_slowly);
   tcase_add_test(c, embedded_surfaces_keep_theirs);

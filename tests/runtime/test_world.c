@@ -28,7 +28,7 @@ START_TEST(frames_add_up_to_ticks)
 }
 END_TEST
 
-START_TEST(a_hitch_is_cut_short)
+START_TEST(a_long_frame_is_cut_short)
 {
   scene s = walker();
   scene_start(&s);
@@ -60,7 +60,7 @@ START_TEST(definitions_are_checked)
 }
 END_TEST
 
-START_TEST(a_full_world_says_so)
+START_TEST(a_full_world_returns_an_error)
 {
   scene s = walker();
   s.world_definition.character_capacity = 2;
@@ -146,9 +146,9 @@ static Suite *suite(void) {
   Suite *s = suite_create("world");
   TCase *c = tcase_create("world");
   tcase_add_test(c, frames_add_up_to_ticks);
-  tcase_add_test(c, a_hitch_is_cut_short);
+  tcase_add_test(c, a_long_frame_is_cut_short);
   tcase_add_test(c, definitions_are_checked);
-  tcase_add_test(c, a_full_world_says_so);
+  tcase_add_test(c, a_full_world_returns_an_error);
   tcase_add_test(c, a_step_allocates_nothing);
   tcase_add_test(c, every_allocation_may_fail);
   suite_add_tcase(s, c);

@@ -23,7 +23,7 @@ static void spread_out(void) {
   for (uint32_t i = 0; i < TICKS * POINTS; i++) is.positions[i].y = (float)(1 + (7 * i) % (TICKS * POINTS));
 }
 
-START_TEST(each_measure_is_what_it_says)
+START_TEST(each_measure_has_its_documented_value)
 {
   tune_distances d;
   spread_out();
@@ -72,7 +72,7 @@ int main(void) {
   Suite *suite = suite_create("distances");
   TCase *c = tcase_create("distances");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, each_measure_is_what_it_says);
+  tcase_add_test(c, each_measure_has_its_documented_value);
   tcase_add_test(c, equal_distances_and_none_have_one_value);
   tcase_add_test(c, what_is_no_number_is_infinitely_far_off);
   tcase_add_test(c, the_larger_of_each_is_taken);

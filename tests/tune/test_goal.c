@@ -40,7 +40,7 @@ START_TEST(both_are_kept_where_one_keeps_both)
 }
 END_TEST
 
-START_TEST(what_is_out_of_reach_is_told_with_the_closest)
+START_TEST(unreachable_targets_are_reported_with_the_closest)
 {
   uint32_t chosen;
   ck_assert_uint_eq(choose(1e-6, 0, TUNE_TOO_FINE), 3);
@@ -58,7 +58,7 @@ int main(void) {
   tcase_add_test(c, a_budget_takes_the_nearest_within_it);
   tcase_add_test(c, without_a_goal_it_is_the_nearest_of_all);
   tcase_add_test(c, both_are_kept_where_one_keeps_both);
-  tcase_add_test(c, what_is_out_of_reach_is_told_with_the_closest);
+  tcase_add_test(c, unreachable_targets_are_reported_with_the_closest);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

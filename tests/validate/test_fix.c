@@ -47,7 +47,7 @@ START_TEST(test_colors_shrink)
 }
 END_TEST
 
-START_TEST(test_what_is_beyond_mending)
+START_TEST(test_unrepairable_faults)
 {
   sbf_asset *asset = rules_load(ROOT_BONE RENDER("<skin><influence_counts>1 1 1 1</influence_counts><bones>0 "
                                                  "0 0 0</bones><weights>1 1 1 -1</weights></skin>"),
@@ -63,7 +63,7 @@ START_TEST(test_what_is_beyond_mending)
 END_TEST
 
 /* A file is refused for what is beyond mending, and loads for what is not. */
-START_TEST(test_loads_for_mending)
+START_TEST(test_loads_for_repair)
 {
   static const struct {
     const char *inside;
@@ -116,5 +116,5 @@ START_TEST(test_memory_runs_out)
 }
 END_TEST
 
-RULES_MAIN("fix", test_nothing_to_do, test_lists_shrink, test_colors_shrink, test_what_is_beyond_mending,
-    test_loads_for_mending, test_memory_runs_out)
+RULES_MAIN("fix", test_nothing_to_do, test_lists_shrink, test_colors_shrink, test_unrepairable_faults,
+    test_loads_for_repair, test_memory_runs_out)

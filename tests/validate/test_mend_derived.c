@@ -75,7 +75,7 @@ START_TEST(test_what_others_made_stays)
 }
 END_TEST
 
-START_TEST(test_mending_the_source_makes_stale)
+START_TEST(test_repairing_the_source_makes_derived_parts_stale)
 {
   sbf_asset *built =
       build(ROOT_BONE SECTION(SURFACE(TETRA_POINTS " 9 9 9", "3 3 3 3", TETRA_POLYGONS)), NULL);
@@ -101,4 +101,4 @@ END_TEST
 
 RULES_MAIN("mend_derived", test_stale_parts_are_made_anew_with_their_settings,
     test_lattices_are_made_anew_as_they_were, test_what_others_made_stays,
-    test_mending_the_source_makes_stale, test_without_build)
+    test_repairing_the_source_makes_derived_parts_stale, test_without_build)

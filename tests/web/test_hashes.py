@@ -23,8 +23,8 @@ def main():
         made = web_files.bundles(folder)
         jobs = [{"file": made[name], "ground": GROUNDS[ground], "frames": frames, "drive": [0.3, 0.2]}
                 for name, ground, frames in RUNS]
-        told = web_files.run("node", script, os.path.join(web_files.PACKAGE, "sbfmt.js"), json.dumps(jobs))
-        found = json.loads(told)
+        reported = web_files.run("node", script, os.path.join(web_files.PACKAGE, "sbfmt.js"), json.dumps(jobs))
+        found = json.loads(reported)
         for (name, ground, frames), here in zip(RUNS, found["runs"]):
             there = web_files.native(made[name], "--seconds", frames / 60, "--drive", "0.3,0.2", "--ground", ground)
             print(f"{name}, {ground}, {frames} frames: {here['hash']}, {here['us']:.0f} us a frame of processor time")

@@ -41,10 +41,10 @@ def main():
         outside = re.findall(r'(?:src|href)\s*=\s*"(?!data:)[^"]*"|url\((?!["\']?data:)', text)
         if outside or "{{" in text:
             sys.exit(f"the page is not whole: {outside[:5]}")
-        told = web_files.run("node", script, modules, page, pictures,
+        reported = web_files.run("node", script, modules, page, pictures,
                              json.dumps({"frames": FRAMES, "drive": DRIVE, "ground": GROUND, "other": other,
                                          "text": os.path.join(folder, "lizard.sbf"), "dropped": lizard}))
-        found = json.loads(told.splitlines()[-1])
+        found = json.loads(reported.splitlines()[-1])
         native = web_files.native(lizard, "--seconds", FRAMES / 60, "--drive", "0.3,0.2", "--ground", "noise:0.1,5")
     print(f"{len(text) / 1e6:.1f} MB; {found['us']:.0f} us a step, in this run alone; {found['hash']}")
     if found["hash"] != native["state_hash"]:

@@ -94,8 +94,8 @@ def main():
         beside_its_buffer(folder, "lizard.glb")
         web_files.run(web_files.SBFMT, "export", lizard, "-o", os.path.join(folder, "plain.glb"))
         with web_files.served(folder) as address:
-            told = web_files.run("node", script, modules, address, pictures)
-        found = json.loads(told.splitlines()[-1])
+            reported = web_files.run("node", script, modules, address, pictures)
+        found = json.loads(reported.splitlines()[-1])
         there = web_files.native(lizard, "--seconds", "2", "--drive", "0.3,0")["state_hash"]
     for where in ("sbfz", "glb", "gltf"):
         if found[where] != there:

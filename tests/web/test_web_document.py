@@ -62,9 +62,9 @@ def main():
         if len(others) != len(GOES_ON):
             faults.append(f"{DOCUMENT}: {len(others)} programs go on from the first, {len(GOES_ON)} are known here")
         for (line, piece), expected in zip([(first_line, ""), *others], (FIRST, *GOES_ON)):
-            told = run_program(folder, line, first + piece)
-            if not re.fullmatch(FIRST + r"\n" + (expected + r"\n" if piece else ""), told, re.S):
-                faults.append(f"{DOCUMENT}:{line}: it prints {told!r}, not {expected}")
+            reported = run_program(folder, line, first + piece)
+            if not re.fullmatch(FIRST + r"\n" + (expected + r"\n" if piece else ""), reported, re.S):
+                faults.append(f"{DOCUMENT}:{line}: it prints {reported!r}, not {expected}")
         if web_files.npm(folder, "install", "three@0.170").returncode != 0:
             web_files.skip("npm could not fetch three; what runs under node is good")
         pages = blocks("html")
