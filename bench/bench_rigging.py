@@ -29,7 +29,7 @@ import json  # noqa: E402
 
 import obj_variants as variants  # noqa: E402
 import posed_inputs  # noqa: E402
-from rigged_weights import Original, clip_motions, posed_errors, share_of_equal, walk_motions  # noqa: E402
+from rigged_weights import Original, clip_motions, posed_errors, equal_fraction, walk_motions  # noqa: E402
 from sbfmt_program import call  # noqa: E402
 
 Z_UP = ("x", "-z", "y")
@@ -100,7 +100,7 @@ def measure_same(original, folder, rows):
         try:
             time = time_against(original, source, out)
             found = described(out)
-            fraction = share_of_equal(original, obj, out)
+            fraction = equal_fraction(original, obj, out)
         except RuntimeError as error:
             print(f"b,{original.name},{name},{len(obj.points)},0,,,,,,,{error}".replace("\n", " "), flush=True)
             rows.append((0, False, 0, 0, False))

@@ -323,7 +323,7 @@ static bool stated_measures(const sbf_asset *asset, sbf_asset_measures *m) {
 }
 
 /* Data that an outline omits: which surface points are points of the springs. */
-static bool tells_interior(const sbf_asset *asset) {
+static bool lists_surface_points(const sbf_asset *asset) {
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_level *level = finest(&asset->soft_bodies.at[i]);
     if (level && level->model == SBF_ELASTIC_MODEL_SPRINGS && level->new_from_old.count &&
@@ -350,7 +350,7 @@ static sbf_status load(cli_call *call, const char *path, bool whole, loaded *l, 
   sbf_status status = sbf_load_file(path, &options, &l->asset, error);
   if (status != SBF_OK) return status;
   bool is_outline = options.outline && l->read_bytes > 0; /* XML does not count bytes */
-  if (is_outline && tells_interior(l->asset) && stated_measures(l->asset, &l->measures)) return SBF_OK;
+  if (is_outline && lists_surface_points(l->asset) && stated_measures(l->asset, &l->measures)) return SBF_OK;
   if (is_outline) {
     sbf_asset_free(l->asset);
     status = sbf_load_file(path, NULL, &l->asset, error);

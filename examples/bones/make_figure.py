@@ -137,7 +137,7 @@ def bundle(mesh, with_skeleton):
     bodies = "".join(body_text(n, b) for n, b in kept.items())
     joints = "".join(joint_text(n, b, every) for n, b in kept.items() if b[0] in kept)
     joints = f"<joints>\n{joints}</joints>\n" if joints else ""
-    held = "".join(f'<attachment name="{n}" rule="inside_hull" rigid_body="{n}"/>\n' for n in kept)
+    attached = "".join(f'<attachment name="{n}" rule="inside_hull" rigid_body="{n}"/>\n' for n in kept)
     skin = mesh_text(mesh.points, [face.corners for face in mesh.faces])
     same = " ".join(str(i) for i in range(len(mesh.points)))
     return f"""<?xml version="1.0" encoding="UTF-8"?>
@@ -156,7 +156,7 @@ def bundle(mesh, with_skeleton):
 <source_points>{same}</source_points>
 <attributes density="500" young_modulus="8e4" poisson_ratio="0.4" damping_ratio="0.2" friction="0.5"/>
 <attachments>
-{held}</attachments>
+{attached}</attachments>
 </soft_body>
 </sbf>
 """

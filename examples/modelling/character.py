@@ -42,12 +42,12 @@ def check(character, data, path):
     found = check_section(c.mesh) if c.quads else check_surface(c.mesh)
     if c.symmetric:
         found += check_mirror(c.mesh, c.mesh)
-    if any(abs(sum(w for _, w in held) - 1.0) > 1e-4 or not held for held in c.weights):
+    if any(abs(sum(w for _, w in weighted) - 1.0) > 1e-4 or not weighted for weighted in c.weights):
         found.append("weights do not sum to one")
-    stray = [i for i, held in enumerate(c.weights) if held and follows_other_side(c.mesh.points[i], c.bones[held[0][0]])]
+    stray = [i for i, weighted in enumerate(c.weights) if weighted and follows_other_side(c.mesh.points[i], c.bones[weighted[0][0]])]
     if stray:
         found.append(f"{len(stray)} points follow a limb of the other side, such as point {stray[0]}")
-    idle = {i for i, bone in enumerate(c.bones) if bone.tail is not None} - {i for held in c.weights for i, _ in held}
+    idle = {i for i, bone in enumerate(c.bones) if bone.tail is not None} - {i for weighted in c.weights for i, _ in weighted}
     found += [f"bone {c.bones[i].name} moves no point" for i in sorted(idle) if c.bones[i].parent is not None]
     if {f.material for f in c.mesh.faces} != {m.name for m in c.materials}:
         found.append("a material is unused or unknown")

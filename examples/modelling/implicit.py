@@ -95,12 +95,12 @@ class Body:
         for part in self.parts:
             cx, cy, cz = part.centre
             x0, y0, z0 = x - cx, y - cy, z - cz
-            least = math.sqrt(x0 * x0 + y0 * y0 + z0 * z0) - part.radius
+            minimum = math.sqrt(x0 * x0 + y0 * y0 + z0 * z0) - part.radius
             if part.carve:
-                if -least < value - part.melt and least > 0.0:
+                if -minimum < value - part.melt and minimum > 0.0:
                     continue
                 value = -_melted(-value, part.distance(x, y, z), part.melt)
-            elif least < value + part.melt:
+            elif minimum < value + part.melt:
                 value = _melted(value, part.distance(x, y, z), part.melt)
         return value
 
@@ -260,7 +260,7 @@ def gradient(body, p, step=1e-4):
             body(x, y, z + step) - body(x, y, z - step))
 
 
-def _onto(body, p, most):
+def _onto(body, p, max_step):
     """The point of the surface near p, at most so far away."""
     for _ in range(2):
         slope = scale(gradient(body, p), 5000.0)
@@ -269,7 +269,7 @@ def _onto(body, p, most):
             return p
         step = scale(slope, -body(*p) / squared)
         size = length(step)
-        p = add(p, step if size <= most else scale(step, most / size))
+        p = add(p, step if size <= max_step else scale(step, max_step / size))
     return p
 
 

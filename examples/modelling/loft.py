@@ -200,8 +200,8 @@ def _close(mesh, surface, ring_ids, end, cap, sign, uv_corner, material):
     count = len(ring_ids)
     columns, rows = cap.grid, count // 2 - cap.grid
     walk = border_walk(columns, rows)
-    ids = {place: ring_ids[(i - columns // 2) % count] for i, place in enumerate(walk)}
-    border = {place: mesh.points[i] for place, i in ids.items()}
+    ids = {position: ring_ids[(i - columns // 2) % count] for i, position in enumerate(walk)}
+    border = {position: mesh.points[i] for position, i in ids.items()}
     last = cap.loops[-1] if cap.loops else 0.0
     along = scale(_along(surface, end), sign * cap.depth)
     for row in range(1, rows):
@@ -212,11 +212,11 @@ def _close(mesh, surface, ring_ids, end, cap, sign, uv_corner, material):
     for row in range(rows):
         beside = columns // 2 + row
         for column in range(columns):
-            places = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column)]
+            positions = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column)]
             if sign < 0:
-                places.reverse()
-            uvs = [(uv_corner[0] + 0.24 * c / columns, uv_corner[1] + 0.24 * r / rows) for r, c in places]
-            mesh.add_face([ids[place] for place in places], uvs,
+                positions.reverse()
+            uvs = [(uv_corner[0] + 0.24 * c / columns, uv_corner[1] + 0.24 * r / rows) for r, c in positions]
+            mesh.add_face([ids[position] for position in positions], uvs,
                           material(end + sign * cap.depth, beside if 2 * column >= columns else count - 1 - beside))
 
 
@@ -290,5 +290,5 @@ def inset_rings(mesh, patch, rings, inner, ring_materials, inner_material):
             uv[r, c] = lerp(uv_of[patch[r][c]], middle_uv, 0.75)
     for r in range(size):
         for c in range(size):
-            places = ((r, c), (r, c + 1), (r + 1, c + 1), (r + 1, c))
-            put(tuple(index[p] for p in places), tuple(uv[p] for p in places), inner_material(r, c))
+            positions = ((r, c), (r, c + 1), (r + 1, c + 1), (r + 1, c))
+            put(tuple(index[p] for p in positions), tuple(uv[p] for p in positions), inner_material(r, c))

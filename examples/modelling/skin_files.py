@@ -7,24 +7,24 @@ from model_files import Buffer, bone_frame, float32, limits_extras, quaternion
 from quad_mesh import cross, dot, sub
 
 
-def smooth_weights(points, bones, reach, most=4, least=0.02):
+def smooth_weights(points, bones, reach, max_bones=4, min_weight=0.02):
     """For each point [(bone, weight)]: shares of the bones' lines, falling off with the distance d as
-    (1 + (d / reach)^2)^-4; of `most` bones at most, those above `least`, summing to one."""
+    (1 + (d / reach)^2)^-4; of `max_bones` bones at most, those above `min_weight`, summing to one."""
     def distance(point, bone):
-        way, along = sub(point, bone.head), sub(bone.tail, bone.head)
-        t = min(max(dot(way, along) / dot(along, along), 0.0), 1.0)
-        off = tuple(w - t * a for w, a in zip(way, along))
+        offset, along = sub(point, bone.head), sub(bone.tail, bone.head)
+        t = min(max(dot(offset, along) / dot(along, along), 0.0), 1.0)
+        off = tuple(w - t * a for w, a in zip(offset, along))
         return dot(off, off) ** 0.5
 
     weights = []
     for point in points:
         near = min(distance(point, bone) for bone in bones)
-        shares = [((1.0 + ((distance(point, bone) - near) / reach) ** 2) ** -4, i) for i, bone in enumerate(bones)]
-        shares = sorted(shares, key=lambda share: (-share[0], share[1]))[:most]
-        total = sum(share for share, _ in shares)
-        kept = [(i, share / total) for share, i in shares if share / total >= least]
-        total = sum(share for _, share in kept)
-        weights.append([(i, round(share / total, 5)) for i, share in kept])
+        influences = [((1.0 + ((distance(point, bone) - near) / reach) ** 2) ** -4, i) for i, bone in enumerate(bones)]
+        influences = sorted(influences, key=lambda influence: (-influence[0], influence[1]))[:max_bones]
+        total = sum(influence for influence, _ in influences)
+        kept = [(i, influence / total) for influence, i in influences if influence / total >= min_weight]
+        total = sum(influence for _, influence in kept)
+        weights.append([(i, round(influence / total, 5)) for i, influence in kept])
     return weights
 
 
@@ -33,12 +33,12 @@ def planted(points, bones, weights, height):
     lowest, of two equally low the one it follows more: soles that do not knead as the leg above them turns. From there to
     twice the height it passes into what it was."""
     result = []
-    for point, held in zip(points, weights):
-        own = min(held, key=lambda bone: (bones[bone[0]].tail[1], -bone[1]))[0]
+    for point, entries in zip(points, weights):
+        own = min(entries, key=lambda bone: (bones[bone[0]].tail[1], -bone[1]))[0]
         rest = min(max(point[1] / height - 1.0, 0.0), 1.0)
-        share = {i: w * rest for i, w in held if i != own and w * rest >= 0.005}
-        share[own] = 1.0 - sum(share.values())
-        result.append([(i, round(w, 5)) for i, w in sorted(share.items(), key=lambda s: (-s[1], s[0]))])
+        influence = {i: w * rest for i, w in entries if i != own and w * rest >= 0.005}
+        influence[own] = 1.0 - sum(influence.values())
+        result.append([(i, round(w, 5)) for i, w in sorted(influence.items(), key=lambda s: (-s[1], s[0]))])
     return result
 
 
@@ -49,12 +49,12 @@ def triangles_of(points):
     def fan(start):
         return [(start + k) % count for i in range(1, count - 1) for k in (0, i, i + 1)]
 
-    def least(order):
+    def smallest_angle(order):
         normals = [cross(sub(points[b], points[a]), sub(points[c], points[a]))
                    for a, b, c in zip(order[::3], order[1::3], order[2::3])]
         return round(min(dot(n, n) for n in normals), 20)
 
-    return fan(0) if count <= 4 else max(map(fan, range(count)), key=least)
+    return fan(0) if count <= 4 else max(map(fan, range(count)), key=smallest_angle)
 
 
 def skinned_glb_bytes(armature, bones, mesh, weights, materials, title, licence):
@@ -92,13 +92,13 @@ def skinned_glb_bytes(armature, bones, mesh, weights, materials, title, licence)
                     rows.append((c, uv))
                 corners.append(vertex_of[key])
             indices += [(corners[i],) for i in triangles_of([mesh.points[c] for c in face.corners])]
-        held = [weights[c] + [(0, 0.0)] * (4 - len(weights[c])) for c, _ in rows]
+        entries = [weights[c] + [(0, 0.0)] * (4 - len(weights[c])) for c, _ in rows]
         primitives.append({
             "attributes": {"POSITION": buffer.put([mesh.points[c] for c, _ in rows], "VEC3", "f", bounds=True),
                            "NORMAL": buffer.put([normals[c] for c, _ in rows], "VEC3", "f"),
                            "TEXCOORD_0": buffer.put([(round(u, 5), round(1.0 - v, 5)) for _, (u, v) in rows], "VEC2", "f"),
-                           "JOINTS_0": buffer.put([tuple(i for i, _ in h) for h in held], "VEC4", "H"),
-                           "WEIGHTS_0": buffer.put([tuple(w for _, w in h) for h in held], "VEC4", "f")},
+                           "JOINTS_0": buffer.put([tuple(i for i, _ in h) for h in entries], "VEC4", "H"),
+                           "WEIGHTS_0": buffer.put([tuple(w for _, w in h) for h in entries], "VEC4", "f")},
             "indices": buffer.put(indices, "SCALAR", "H"), "material": index_of_material[material.name]})
     inverse = buffer.put(matrices, "MAT4", "f")
     del buffer.views[-1]["target"]

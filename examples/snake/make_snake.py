@@ -27,14 +27,14 @@ def radius_at(i):
     return 0.034 + 0.026 * math.sin(math.pi * min(1.0, t * 1.15) ** 0.75) - 0.028 * t ** 5 * 1.0
 
 
-def place(i):
+def joint_at(i):
     return (0.0, radius_at(i) * 0.86, NECK_Z - STEP * i)
 
 
 def build_body():
     body = Body()
     for i in range(LINKS):
-        body.cone(place(i), place(i + 1), radius_at(i), radius_at(i + 1) if i + 1 < LINKS else 0.010, melt=0.01)
+        body.cone(joint_at(i), joint_at(i + 1), radius_at(i), radius_at(i + 1) if i + 1 < LINKS else 0.010, melt=0.01)
     body.ball((0.0, 0.056, 0.850), (0.056, 0.038, 0.078), melt=0.03)                     # skull
     body.ball((0.0, 0.047, 0.915), (0.040, 0.027, 0.052), melt=0.03)                     # snout
     body.both(body.ball, EYE, 0.0175, melt=0.004)
@@ -43,7 +43,7 @@ def build_body():
 
 
 def paint_rules():
-    diamonds = either_of(*(along((0.0, 2.2 * radius_at(i), place(i)[2] - 0.05), (radius_at(i), 1.0 * radius_at(i), place(i)[2] - 0.05),
+    diamonds = either_of(*(along((0.0, 2.2 * radius_at(i), joint_at(i)[2] - 0.05), (radius_at(i), 1.0 * radius_at(i), joint_at(i)[2] - 0.05),
                                  0.95 * radius_at(i), 0.2 * radius_at(i)) for i in range(LINKS - 1)))
     stripe = both_of(along((0.030, 0.070, 0.945), (0.060, 0.062, 0.760), 0.016, 0.012), outside(within(EYE, 0.010)))
     belly = either_of(along((0.0, -0.040, 0.960), (0.0, -0.050, -0.60), 0.080, 0.078),
@@ -55,9 +55,9 @@ def paint_rules():
 
 def build_bones():
     side = (1.0, 0.0, 0.0)
-    bones = [Bone("head", None, place(0), (0.0, 0.050, 0.965), side)]
+    bones = [Bone("head", None, joint_at(0), (0.0, 0.050, 0.965), side)]
     for i in range(LINKS):
-        bones.append(Bone(f"body{i + 1}", f"body{i}" if i else "head", place(i), place(i + 1), side))
+        bones.append(Bone(f"body{i + 1}", f"body{i}" if i else "head", joint_at(i), joint_at(i + 1), side))
     return bones
 
 

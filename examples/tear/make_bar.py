@@ -16,9 +16,9 @@ ALONG, ACROSS = 24, 4  # quads
 HIGH, HALF_WIDTH, LOW = 1.0, 0.125, 0.2  # m
 
 
-def half_width(share):
+def half_width(fraction):
     """The size of the cross-section at a fraction of the length from the top."""
-    return HALF_WIDTH * (1 - 0.35 * math.exp(-(((share - 0.5) / 0.09) ** 2)))
+    return HALF_WIDTH * (1 - 0.35 * math.exp(-(((fraction - 0.5) / 0.09) ** 2)))
 
 
 class Bar:
@@ -31,13 +31,13 @@ class Bar:
         """Index of the point at a lattice position: i down, j and k across."""
         if (i, j, k) not in self.numbers:
             s = half_width(i / ALONG)
-            place = ((2 * j / ACROSS - 1) * s, LOW + HIGH * (1 - i / ALONG), (2 * k / ACROSS - 1) * s)
+            position = ((2 * j / ACROSS - 1) * s, LOW + HIGH * (1 - i / ALONG), (2 * k / ACROSS - 1) * s)
             self.numbers[i, j, k] = len(self.points)
-            self.points.append(tuple(round(x, 5) + 0.0 for x in place))
+            self.points.append(tuple(round(x, 5) + 0.0 for x in position))
         return self.numbers[i, j, k]
 
-    def quad(self, *places):
-        self.quads.append([self.point(*place) for place in places])
+    def quad(self, *positions):
+        self.quads.append([self.point(*position) for position in positions])
 
     def side(self, i, j):
         """The four quads of one step down and one across."""
@@ -67,10 +67,10 @@ def make_bar():
 
 def bundle(bar):
     """The text of the file: the surface is rendered as it is, and its upper end is pinned to the world."""
-    numbers = " ".join(f"{x:g}" for place in bar.points for x in place)
+    numbers = " ".join(f"{x:g}" for position in bar.points for x in position)
     sizes = " ".join("4" for _ in bar.quads)
     corners = " ".join(str(corner) for quad in bar.quads for corner in quad)
-    held = " ".join(str(i) for i, place in enumerate(bar.points) if place[1] > LOW + HIGH - 1e-6)
+    pinned = " ".join(str(i) for i, position in enumerate(bar.points) if position[1] > LOW + HIGH - 1e-6)
     same = " ".join(str(i) for i in range(len(bar.points)))
     mesh = f"<positions>{numbers}</positions>\n<polygon_sizes>{sizes}</polygon_sizes>\n"
     mesh += f"<polygon_points>{corners}</polygon_points>\n"
@@ -88,7 +88,7 @@ def bundle(bar):
 <source_points>{same}</source_points>
 <attributes young_modulus="2.5e4" poisson_ratio="0.4" damping_ratio="0.03" tear_strain="0.75"/>
 <pins>
-<pin_set name="upper end"><points>{held}</points></pin_set>
+<pin_set name="upper end"><points>{pinned}</points></pin_set>
 </pins>
 </soft_body>
 </sbf>

@@ -158,9 +158,9 @@ def ragdoll():
         bpy.context.view_layer.objects.active = made
         bpy.ops.rigidbody.object_add()
         made.rigid_body.mass, made.rigid_body.friction, made.rigid_body.collision_shape = mass, 0.625, "BOX"
-    for name, (kind, above, below, place) in RAGDOLL_JOINTS.items():
+    for name, (kind, above, below, position) in RAGDOLL_JOINTS.items():
         made = fixtures.link(bpy.data.objects.new(name, None))
-        made.location = place
+        made.location = position
         bpy.context.view_layer.objects.active = made
         bpy.ops.rigidbody.constraint_add(type=kind)
         joint = made.rigid_body_constraint
@@ -207,9 +207,9 @@ DUPLICATES = {"one": ((0, 0, 0), 0, 1), "two": ((2, 0, 0), 0.5, 1), "three": ((4
 
 def linked_duplicates():
     shared = fixtures.ball("one", 0.4, (0, 0, 0.5)).data
-    for name, (place, turn, scale) in DUPLICATES.items():
+    for name, (position, turn, scale) in DUPLICATES.items():
         made = bpy.data.objects.get(name) or fixtures.link(bpy.data.objects.new(name, shared))
-        made.location, made.rotation_euler, made.scale = place, (0, 0, turn), (scale, ) * 3
+        made.location, made.rotation_euler, made.scale = position, (0, 0, turn), (scale, ) * 3
 
 
 def mirrored_objects():
@@ -237,6 +237,6 @@ def closed_volume(positions, sizes, corners):
     return total
 
 
-def asset_space(place):
-    x, y, z = place
+def asset_space(position):
+    x, y, z = position
     return (x, z, -y)

@@ -223,7 +223,7 @@ def break_something():
         (i for i, one in enumerate(findings) if one.code.startswith("SURFACE_WINDING")), 0)
 
 
-def mend_it():
+def repair_it():
     bpy.ops.sbfmt.repair(index=-1)
     if any(one.code == "SURFACE_WINDING" for one in bpy.context.scene.soft_body_format.findings):
         raise RuntimeError("the button did not repair the face")
@@ -251,7 +251,7 @@ def touch():
     bpy.data.objects["Head"].data.update()
 
 
-def expect_quiet():
+def expect_no_messages():
     if CHECKS[-1] != CHECKS[-2] or CHECKS[-1] == 0:
         raise RuntimeError(f"a change is to be checked, and not again and again: {CHECKS}")
     from soft_body_format.operators import live_check
@@ -281,8 +281,8 @@ def draw_way():
     data.dimensions = "3D"
     spline = data.splines.new("BEZIER")
     spline.bezier_points.add(2)
-    for point, place in zip(spline.bezier_points, ((0, 0, 0), (0.6, -1.2, 0), (-0.4, -2.4, 0))):
-        point.co, point.handle_left_type, point.handle_right_type = place, "AUTO", "AUTO"
+    for point, position in zip(spline.bezier_points, ((0, 0, 0), (0.6, -1.2, 0), (-0.4, -2.4, 0))):
+        point.co, point.handle_left_type, point.handle_right_type = position, "AUTO", "AUTO"
     way = bpy.data.objects.new("Way", data)
     bpy.context.scene.collection.objects.link(way)
     settings = bpy.context.scene.soft_body_format.preview
@@ -341,8 +341,8 @@ STEPS = (
     lambda: tab("OBJECT"), shoot("blender-object", "PROPERTIES"),
     press_escape, expect_nothing, several(press_build, lambda: only("check", "build", "drawn")), until(is_built), lambda: tab("SCENE"),
     shoot("blender", "VIEW_3D", "PROPERTIES"),
-    several(break_something, lambda: only("check")), shoot("blender-check", "PROPERTIES"), mend_it,
-    touch, idle(8), idle(8), expect_quiet,
+    several(break_something, lambda: only("check")), shoot("blender-check", "PROPERTIES"), repair_it,
+    touch, idle(8), idle(8), expect_no_messages,
     lambda: only("gait", "legs"), shoot("blender-gait", "PROPERTIES"),
     several(add_follower, lambda: only("head", "tails", "followers", "gait")), shoot("blender-tails", "PROPERTIES"),
     several(bend, lambda: only("bone", "bone_material"),

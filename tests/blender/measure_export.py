@@ -21,17 +21,17 @@ WRITER, SKINNED, OUT = sys.argv[sys.argv.index("--") + 1:]
 
 def round_mesh(around, rings):
     """A ball of quads and two rings of triangles; Blender's own operator takes long for so many."""
-    places = [(0.0, 0.0, 2.0)]
-    places += [(math.sin(math.pi * j / rings) * math.cos(2 * math.pi * i / around),
+    positions = [(0.0, 0.0, 2.0)]
+    positions += [(math.sin(math.pi * j / rings) * math.cos(2 * math.pi * i / around),
                 math.sin(math.pi * j / rings) * math.sin(2 * math.pi * i / around), 1 + math.cos(math.pi * j / rings))
                for j in range(1, rings) for i in range(around)]
-    places.append((0.0, 0.0, 0.0))
-    last, low = len(places) - 1, 1 + (rings - 2) * around
+    positions.append((0.0, 0.0, 0.0))
+    last, low = len(positions) - 1, 1 + (rings - 2) * around
     beside = [(i + 1) % around for i in range(around)]
     faces = [(0, 1 + i, 1 + beside[i]) for i in range(around)] + [(last, low + beside[i], low + i) for i in range(around)]
     faces += [(ring + i, ring + around + i, ring + around + beside[i], ring + beside[i])
               for ring in range(1, low, around) for i in range(around)]
-    return fixtures.mesh_object("ball", places, faces)
+    return fixtures.mesh_object("ball", positions, faces)
 
 
 def large_ball():

@@ -147,8 +147,8 @@ class Files(fixtures.SceneTest):
         frames = numpy.arange(5 * 4 * 3, dtype=numpy.float32).reshape(5, 4, 3)
         for name in ("a.pc2", "a.mdd"):
             writer = CacheWriter(self.path(name), 4, 5, 1, 24.0)
-            for places in frames:
-                writer.write(places)
+            for positions in frames:
+                writer.write(positions)
             writer.close()
             numpy.testing.assert_array_equal(read_cache(self.path(name)), frames)
             cut_cache(self.path(name), self.path(f"cut_{name}"), 1, 3, 2, 24.0)

@@ -264,9 +264,9 @@ class Cloth(fixtures.SceneTest):
     def test_shear_makes_a_weave_stiffer_and_thinner(self):
         """A hanging strip, against a sheet of the modulus and ratio with one thread more, since its rims have cells at one side alone."""
         wide, high, cell, mass = 8, 24, 0.1, 0.05
-        places = [(cell * i, 0, -cell * j) for j in range(high + 1) for i in range(wide + 1)]
+        positions = [(cell * i, 0, -cell * j) for j in range(high + 1) for i in range(wide + 1)]
         faces = [(at, at + 1, at + wide + 2, at + wide + 1) for j in range(high) for at in range(j * (wide + 1), j * (wide + 1) + wide)]
-        made = fixtures.mesh_object("m", places, faces)
+        made = fixtures.mesh_object("m", positions, faces)
         made.vertex_groups.new(name="held").add(list(range(wide + 1)), 1.0, "REPLACE")
         found = made.modifiers.new("c", "CLOTH")
         cloth = found.settings

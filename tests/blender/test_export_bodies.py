@@ -282,10 +282,10 @@ class Rig(fixtures.SceneTest):
         bodies = {body.id: body for body in asset.rigid_bodies}
         self.assertEqual(bodies[found.body_b].name, "head")
         self.assertAlmostEqual(bodies[found.body_b].mass, 4.5)
-        places = [tuple(a + b for a, b in zip(record.position, bodies[holder].center)) for record, holder in (
+        positions = [tuple(a + b for a, b in zip(record.position, bodies[holder].center)) for record, holder in (
             (found.frame_a, found.body_a), (found.frame_b, found.body_b))]
-        self.assert_near(places[0], (0, 1.3, 0))
-        self.assert_near(places[1], (0, 1.3, 0))
+        self.assert_near(positions[0], (0, 1.3, 0))
+        self.assert_near(positions[1], (0, 1.3, 0))
 
     def test_limit_rotation_constraints_become_a_hinge(self):
         one = self.rig.pose.bones["shin.L"].constraints.new("LIMIT_ROTATION")

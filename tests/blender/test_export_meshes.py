@@ -59,8 +59,8 @@ class Meshes(fixtures.SceneTest):
         flat, round_ = self.export(build=False).render_meshes
         self.assertEqual((len(flat.normals), len(flat.normal_corners)), (18, 24))
         self.assertEqual((len(round_.normals), len(round_.normal_corners)), (len(round_.mesh.positions), 0))
-        for place, normal in zip(points(round_.mesh.positions), points(round_.normals)):
-            self.assertGreater(sum(a * b for a, b in zip(place, normal)) / 0.5, 0.98)
+        for position, normal in zip(points(round_.mesh.positions), points(round_.normals)):
+            self.assertGreater(sum(a * b for a, b in zip(position, normal)) / 0.5, 0.98)
 
     def test_normals_of_an_artist(self):
         """Custom ones, also of a mirrored object, where they point the other way across the mirror."""
@@ -271,9 +271,9 @@ class Chosen(fixtures.SceneTest):
         fixtures.hang(part, rig, "hip")
         herd = self.collection("herd", self.scene.collection, rig, part)
         herd.instance_offset = (0, 0, 0.25)
-        for name, place, scale in (("one", (5, 0, 0), 1), ("two", (-5, 0, 0), 2)):
+        for name, position, scale in (("one", (5, 0, 0), 1), ("two", (-5, 0, 0), 2)):
             empty = fixtures.link(bpy.data.objects.new(name, None))
-            empty.instance_type, empty.instance_collection, empty.location, empty.scale = "COLLECTION", herd, place, (scale, ) * 3
+            empty.instance_type, empty.instance_collection, empty.location, empty.scale = "COLLECTION", herd, position, (scale, ) * 3
         bpy.context.view_layer.layer_collection.children["herd"].exclude = True
         return herd
 

@@ -91,9 +91,9 @@ class RoundTrip(fixtures.RoundTripTest):
         self.assertEqual({len(face.vertices) for face in made.polygons}, {3})
         area = count / 2 * math.sin(2 * math.pi / count) * (4 - 1)
         self.assertAlmostEqual(sum(face.area for face in made.polygons), area + 0.5, places=4)
-        for corner, place in zip(made.loops, made.uv_layers["plan"].data):
+        for corner, position in zip(made.loops, made.uv_layers["plan"].data):
             at = made.vertices[corner.vertex_index].co
-            self.assert_near(place.uv, (at.x, -at.y), 1e-5)
+            self.assert_near(position.uv, (at.x, -at.y), 1e-5)
 
     def test_a_broken_file_is_refused_in_blenders_way(self):
         with open(self.path("bad.sbf"), "w", encoding="utf-8") as file:

@@ -75,9 +75,9 @@ class Scene(fixtures.SceneTest):
         upper.rotation_mode, upper.rotation_euler = "XYZ", (math.pi / 2, 0, 0)
         bpy.context.view_layer.update()
         points = joints.collect(bpy.context)["cone"][1].reshape(-1, 3, 3)
-        place = Matrix.Translation((1, 2, 3)) @ (self.rig.data.bones["upper"].matrix_local.to_quaternion().to_matrix() @
+        position = Matrix.Translation((1, 2, 3)) @ (self.rig.data.bones["upper"].matrix_local.to_quaternion().to_matrix() @
                                                  Euler((math.pi / 2, 0, 0)).to_matrix()).to_4x4() @ Vector((0, 2, 0))
-        self.assert_near(points[0, 0], place, 1e-5)
+        self.assert_near(points[0, 0], position, 1e-5)
 
     def test_a_pose_beyond_its_limits_is_red(self):
         self.joint(kind="spherical", use_cone=True, cone=0.5, use_twist=True, twist_min=-0.2, twist_max=0.2)

@@ -10,7 +10,7 @@ class Mends(fixtures.SceneTest):
         bpy.ops.sbfmt.check()
         return {one.code for one in self.scene.soft_body_format.findings}
 
-    def mend(self, code):
+    def repair(self, code):
         """Presses the button of the first message with that code; gives the codes that are left."""
         settings = self.scene.soft_body_format
         self.assertIn(code, self.check())
@@ -22,14 +22,14 @@ class Mends(fixtures.SceneTest):
     def test_faces_are_turned_outwards(self):
         made = fixtures.ball("blob")
         made.data.flip_normals()
-        self.assertNotIn("SURFACE_INSIDE_OUT", self.mend("SURFACE_INSIDE_OUT"))
+        self.assertNotIn("SURFACE_INSIDE_OUT", self.repair("SURFACE_INSIDE_OUT"))
         centre = made.data.polygons[0]
         self.assertGreater(centre.normal.dot(centre.center), 0)
 
     def test_one_face_is_turned(self):
         made = fixtures.ball("blob")
         made.data.polygons[5].flip()
-        self.assertNotIn("SURFACE_WINDING", self.mend("SURFACE_WINDING"))
+        self.assertNotIn("SURFACE_WINDING", self.repair("SURFACE_WINDING"))
 
     def test_loose_vertices_go_and_groups_stay(self):
         made = fixtures.box("b")
@@ -37,7 +37,7 @@ class Mends(fixtures.SceneTest):
         made.vertex_groups.new(name="g").add([3], 0.5, "REPLACE")
         codes = self.check()
         code = "POINT_UNUSED" if "POINT_UNUSED" in codes else "MESH_POINT_UNUSED"
-        self.assertEqual(self.mend(code) & {"POINT_UNUSED", "MESH_POINT_UNUSED"}, set())
+        self.assertEqual(self.repair(code) & {"POINT_UNUSED", "MESH_POINT_UNUSED"}, set())
         self.assertEqual(len(made.data.vertices), 8)
         self.assertAlmostEqual(made.vertex_groups["g"].weight(3), 0.5)
 
@@ -49,13 +49,13 @@ class Mends(fixtures.SceneTest):
         below = fixtures.box("below", center=(0, 0, 1))
         below.parent = made
         bpy.context.view_layer.update()
-        before, wanted, place = self.export("a.sbf", build=False), [tuple(v.co) for v in other.data.vertices], below.matrix_world.copy()
+        before, wanted, position = self.export("a.sbf", build=False), [tuple(v.co) for v in other.data.vertices], below.matrix_world.copy()
         self.assertIn("MESH_MIRRORED", self.check())
         self.assertEqual(bpy.ops.sbfmt.repair(index=-1), {"FINISHED"})
         self.assertNotIn("MESH_MIRRORED", {one.code for one in self.scene.soft_body_format.findings})
         self.assertEqual(tuple(made.scale), (1, 1, 1))
         self.assertEqual([tuple(v.co) for v in other.data.vertices], wanted)
-        self.assert_near(below.matrix_world.translation, place.translation, 1e-5)
+        self.assert_near(below.matrix_world.translation, position.translation, 1e-5)
         after = self.export("b.sbf", build=False)
         for name in ("body.blob", "body.below"):
             self.assert_near(after.find("soft_bodies", name).surface.positions, before.find("soft_bodies", name).surface.positions, 1e-5)
@@ -65,7 +65,7 @@ class Mends(fixtures.SceneTest):
         fixtures.hang(fixtures.ball("belly"), rig, "hip")
         joint = rig.data.bones["leg"].soft_body_format.joint
         joint.kind, joint.use_twist, joint.twist_min, joint.twist_max = "revolute", True, 0.5, -0.25
-        self.assertNotIn("LIMIT_ORDER", self.mend("LIMIT_ORDER"))
+        self.assertNotIn("LIMIT_ORDER", self.repair("LIMIT_ORDER"))
         self.assertAlmostEqual(joint.twist_min, -0.25)
         self.assertAlmostEqual(joint.twist_max, 0.5)
 
@@ -77,7 +77,7 @@ class Mends(fixtures.SceneTest):
         for _ in range(2):
             pin = made.soft_body_format.pins.add()
             pin.group, pin.armature, pin.bone = "g", rig, "hip"
-        self.mend("PIN_REPEATED")
+        self.repair("PIN_REPEATED")
         self.assertTrue(self.scene.soft_body_format.mends_files)
         reported = [one.message for one in self.scene.soft_body_format.findings if one.code == "PIN_REPEATED"]
         self.assertTrue(reported and all(one.startswith("repaired in the file") for one in reported), reported)

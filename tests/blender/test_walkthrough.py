@@ -39,7 +39,7 @@ def labels():
             found.add(field.name)
             if field.type == "ENUM":
                 found |= {item.name for item in field.enum_items}
-    return found | {mend.label for mend in IN_SCENE.values()} | {"Drawn", "To the other side"}
+    return found | {repair.label for repair in IN_SCENE.values()} | {"Drawn", "To the other side"}
 
 
 def shown_points(name):

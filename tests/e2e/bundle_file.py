@@ -98,15 +98,15 @@ class Bundle:
             above = self.rest[parent] if parent is not None else None
             local = product(inverse(above), self.rest[i]) if above else self.rest[i]
             rotation, scale = None, (1, 1, 1)
-            place = tuple(row[3] for row in local)
+            position = tuple(row[3] for row in local)
             if (i, "translation") in tracks:
-                place = keyed(*tracks[i, "translation"], time)
+                position = keyed(*tracks[i, "translation"], time)
             if (i, "rotation") in tracks:
                 rotation = keyed(*tracks[i, "rotation"], time, True)
             if (i, "scale") in tracks:
                 scale = keyed(*tracks[i, "scale"], time)
             turn = matrix_of((0, 0, 0), rotation) if rotation else tuple(row[:3] + (0,) for row in local)
-            own = tuple(tuple(turn[r][k] * scale[k] for k in range(3)) + (place[r],) for r in range(3))
+            own = tuple(tuple(turn[r][k] * scale[k] for k in range(3)) + (position[r],) for r in range(3))
             frames.append(product(frames[parent], own) if parent is not None else own)
         return frames
 
@@ -133,7 +133,7 @@ class Bundle:
         """The mesh's points where the bones' frames carry them."""
         moved = [product(frame, inverse(rest)) for frame, rest in zip(frames, self.rest)]
         points = []
-        for place, influences in zip(self.positions(mesh), self.skin(mesh)):
-            there = [(apply(moved[bone], place), weight) for bone, weight in influences]
+        for position, influences in zip(self.positions(mesh), self.skin(mesh)):
+            there = [(apply(moved[bone], position), weight) for bone, weight in influences]
             points.append(tuple(sum(p[k] * w for p, w in there) for k in range(3)))
         return points

@@ -50,14 +50,14 @@ class Bvh:
         values = iter(self.frames[frame]) if frame is not None else None
         found = []
         for parent, offset, channels in zip(self.parents, self.offsets, self.channels):
-            place, own = list(offset), matrix_of()
+            position, own = list(offset), matrix_of()
             for channel in channels if values else ():
                 number = next(values)
                 if channel.endswith("position"):
-                    place["XYZ".index(channel[0])] = number
+                    position["XYZ".index(channel[0])] = number
                 else:
                     own = product(own, turn(channel[0], number))
-            own = tuple(own[r][:3] + (place[r],) for r in range(3))
+            own = tuple(own[r][:3] + (position[r],) for r in range(3))
             found.append(product(found[parent], own) if parent is not None else own)
         return found
 
@@ -65,14 +65,14 @@ class Bvh:
 def write_bvh(path, joints, end=(0, 0, 0), frames=1):
     """Joints by (name, parent or None, position), at rest in every frame. A joint called "..._end" is its parent's end
     site; joints without children end where `end` says."""
-    places = {name: place for name, _, place in joints}
+    positions = {name: position for name, _, position in joints}
     children = {}
     for name, parent, _ in joints:
         children.setdefault(parent, []).append(name)
 
     def lines(name, parent, pad):
         is_end = name.endswith("_end")
-        offset = [a - b for a, b in zip(places[name], places.get(parent, (0, 0, 0)))]
+        offset = [a - b for a, b in zip(positions[name], positions.get(parent, (0, 0, 0)))]
         yield pad + ("End Site" if is_end else f"{'JOINT' if parent else 'ROOT'} {name}")
         yield pad + "{"
         yield pad + "  OFFSET {:.6f} {:.6f} {:.6f}".format(*offset)
@@ -84,7 +84,7 @@ def write_bvh(path, joints, end=(0, 0, 0), frames=1):
                 yield from (pad + "  End Site", pad + "  {", pad + "    OFFSET {} {} {}".format(*end), pad + "  }")
         yield pad + "}"
 
-    channels = 3 * sum(not name.endswith("_end") for name in places)
+    channels = 3 * sum(not name.endswith("_end") for name in positions)
     text = ["HIERARCHY", *lines(children[None][0], None, ""), "MOTION", f"Frames: {frames}", "Frame Time: 0.04",
             *[" ".join(["0"] * channels)] * frames]
     with open(path, "w", encoding="utf-8") as stream:

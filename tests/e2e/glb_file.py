@@ -82,14 +82,14 @@ class Glb:
                      for m in self.accessor(skin["inverseBindMatrices"])]
             moved = [product(worlds[joint], bind) for joint, bind in zip(skin["joints"], binds)]
             attributes = primitive["attributes"]
-            places = self.accessor(attributes["POSITION"])
+            positions = self.accessor(attributes["POSITION"])
             if target is not None:
                 offsets = self.accessor(primitive["targets"][target]["POSITION"])
-                places = [tuple(a + b for a, b in zip(p, by)) for p, by in zip(places, offsets)]
-            for place, joints, weights in zip(places,
+                positions = [tuple(a + b for a, b in zip(p, by)) for p, by in zip(positions, offsets)]
+            for position, joints, weights in zip(positions,
                                               self.accessor(attributes["JOINTS_0"]),
                                               self.accessor(attributes["WEIGHTS_0"])):
-                there = [(apply(moved[j], place), w) for j, w in zip(joints, weights) if w > 0]
+                there = [(apply(moved[j], position), w) for j, w in zip(joints, weights) if w > 0]
                 total = sum(w for _, w in there)
                 points.append(tuple(sum(p[k] * w for p, w in there) / total for k in range(3)) if there else None)
         return points

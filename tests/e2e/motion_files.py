@@ -93,8 +93,8 @@ def slip_of(section, cache, height=0.004, shortest=8):
     for sample in range(cache.sample_count + 1):
         mean = None
         if sample < cache.sample_count:
-            places = [cache.place(sample, section.first + i) for i in sole]
-            mean = [sum(p[k] for p in places) / len(places) for k in range(3)]
+            positions = [cache.place(sample, section.first + i) for i in sole]
+            mean = [sum(p[k] for p in positions) / len(positions) for k in range(3)]
         if mean and mean[1] < stands + height:
             run.append(mean)
             continue

@@ -82,11 +82,11 @@ def moved(obj, unit=1.0, axes=("x", "y", "z"), offset=(0, 0, 0), turn_mirrored=T
 
 
 def renumbered(obj, order):
-    place = {old: new for new, old in enumerate(order)}
+    position = {old: new for new, old in enumerate(order)}
     new = obj.copy()
     new.points = [obj.points[i] for i in order]
     new.origins = [obj.origins[i] for i in order]
-    new.faces = [(o, m, [(place[p], t, n) for p, t, n in c]) for o, m, c in obj.faces]
+    new.faces = [(o, m, [(position[p], t, n) for p, t, n in c]) for o, m, c in obj.faces]
     return new
 
 
@@ -136,16 +136,16 @@ def doubled(obj, key=None):
 
 def merged(obj):
     """Points in one place become one."""
-    new, found, place = obj.copy(), {}, []
+    new, found, position = obj.copy(), {}, []
     new.points, new.origins = [], []
     for point, origin in zip(obj.points, obj.origins):
         if point not in found:
             found[point] = len(new.points)
             new.points.append(point)
             new.origins.append([])
-        place.append(found[point])
+        position.append(found[point])
         new.origins[found[point]] += origin
-    new.faces = [(o, m, [(place[p], t, n) for p, t, n in c]) for o, m, c in obj.faces]
+    new.faces = [(o, m, [(position[p], t, n) for p, t, n in c]) for o, m, c in obj.faces]
     return new
 
 

@@ -85,11 +85,11 @@ def skin_errors(original, variant, path, motions):
     errors = []
     for vertex, (weights, _) in weights_by_vertex(path).items():
         origins = variant.origins[vertex]
-        expected, place = original.expected(origins), original.places[origins[0]]
+        expected, position = original.expected(origins), original.places[origins[0]]
         if not expected:
             continue
         for motion in motions:
-            there, wanted = (tuple(sum(apply(motion.get(b, STILL), place)[k] * w for b, w in of.items()) for k in range(3))
+            there, wanted = (tuple(sum(apply(motion.get(b, STILL), position)[k] * w for b, w in of.items()) for k in range(3))
                              for of in (weights, expected))
             errors.append(math.dist(there, wanted) / size)
     return sorted(errors)

@@ -23,8 +23,8 @@ def weights_by_vertex(path):
         else:
             bone = mesh.get("bone")
             weights = [{names[bundle.bone_of_id[bone]]: 1.0} if bone else {}] * len(places)
-        for source, place, weight in zip(bundle.source_points(mesh), places, weights):
-            found[source] = (weight, place)
+        for source, position, weight in zip(bundle.source_points(mesh), places, weights):
+            found[source] = (weight, position)
         at += len(places)
     return found
 
@@ -147,7 +147,7 @@ def mirror_twins(original):
     return twins
 
 
-def share_of_equal(original, variant, path, within=1e-3):
+def equal_fraction(original, variant, path, within=1e-3):
     """The share of the variant's points whose weights are those of one of the points they came from. A mirrored
     symmetric mesh is the same mesh with its sides exchanged: then points may be their mirror images as well, all of
     them."""
@@ -169,8 +169,8 @@ def walk_motions(path, folder, seconds=2, frames=6):
     rest, poses = dict(zip(bundle.bone_names(), bundle.rest)), {}
     with open(out, encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
-            place, turn = ([float(row[k]) for k in keys] for keys in (("px", "py", "pz"), ("qx", "qy", "qz", "qw")))
-            pose = product(matrix_of(place, turn), inverse(rest[row["bone"]]))
+            position, turn = ([float(row[k]) for k in keys] for keys in (("px", "py", "pz"), ("qx", "qy", "qz", "qw")))
+            pose = product(matrix_of(position, turn), inverse(rest[row["bone"]]))
             poses.setdefault(int(row["frame"]), {})[row["bone"]] = pose
     last = max(poses)
     return [poses[last * (i + 1) // frames] for i in range(frames)]
@@ -191,15 +191,15 @@ def posed_errors(original, variant, path, motions):
     """Distances between the variant's points as posed by their weights and by those expected of them, in shares of
     the longest side, over all motions of the bones."""
     found = weights_by_vertex(path)
-    places = [place for _, place in found.values()]
+    places = [position for _, position in found.values()]
     size = max(max(p[k] for p in places) - min(p[k] for p in places) for k in range(3))
     errors = []
-    for vertex, (weights, place) in found.items():
+    for vertex, (weights, position) in found.items():
         expected = original.expected(variant.origins[vertex])
         if not expected:
             continue
         for motion in motions:
-            there, wanted = (tuple(sum(apply(motion[b], place)[k] * w for b, w in of.items()) for k in range(3))
+            there, wanted = (tuple(sum(apply(motion[b], position)[k] * w for b, w in of.items()) for k in range(3))
                              for of in (weights, expected))
             errors.append(math.dist(there, wanted) / size)
     return sorted(errors)

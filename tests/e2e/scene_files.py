@@ -18,16 +18,16 @@ def spaced(rows, end="\n"):
 
 
 def gltf():
-    places = b"".join(struct.pack("<3f", *p) for p in POINTS)
+    positions = b"".join(struct.pack("<3f", *p) for p in POINTS)
     indices = b"".join(struct.pack("<3H", *t) for t in TRIANGLES)
-    data = places + indices
+    data = positions + indices
     return json.dumps({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "box"}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "buffers": [{"byteLength": len(data),
                      "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
-        "bufferViews": [{"buffer": 0, "byteLength": len(places)},
-                        {"buffer": 0, "byteOffset": len(places), "byteLength": len(indices)}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(positions)},
+                        {"buffer": 0, "byteOffset": len(positions), "byteLength": len(indices)}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3", "min": [0, 0, 0],
                        "max": [1, 2, 3]}, {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"}],
     }).encode()
@@ -87,9 +87,9 @@ def off():
 
 
 def x():
-    places = ",\n".join("%g; %g; %g;" % p for p in POINTS)
+    positions = ",\n".join("%g; %g; %g;" % p for p in POINTS)
     faces = ",\n".join("4; %d, %d, %d, %d;" % q for q in QUADS)  # clockwise from outside, in its left-handed axes
-    return f"xof 0303txt 0032\nMesh box {{\n8;\n{places};\n6;\n{faces};\n}}\n".encode()
+    return f"xof 0303txt 0032\nMesh box {{\n8;\n{positions};\n6;\n{faces};\n}}\n".encode()
 
 
 def ac():

@@ -10,9 +10,9 @@ def middle_of(points):
     return [sum(p[k] for p in points) / len(points) for k in range(3)]
 
 
-def nearest_turn(rest, places):
-    """The rotation, as x, y, z, w, that brings `rest` nearest to `places`, both about their middles."""
-    s = [[sum(a[i] * b[j] for a, b in zip(rest, places)) for j in range(3)] for i in range(3)]
+def nearest_turn(rest, positions):
+    """The rotation, as x, y, z, w, that brings `rest` nearest to `positions`, both about their middles."""
+    s = [[sum(a[i] * b[j] for a, b in zip(rest, positions)) for j in range(3)] for i in range(3)]
     trace = s[0][0] + s[1][1] + s[2][2]
     row = (s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0])
     matrix = [[s[i][j] + s[j][i] - (trace if i == j else 0) for j in range(3)] + [row[i]] for i in range(3)]
@@ -26,23 +26,23 @@ def nearest_turn(rest, places):
     return q
 
 
-def shape_error(section, places):
-    """The farthest of the points in `places` from where the nearest rigid motion has them, over the size."""
+def shape_error(section, positions):
+    """The farthest of the points in `positions` from where the nearest rigid motion has them, over the size."""
     rest = [section.rest[i] for i in section.used]
-    from_middle, to_middle = middle_of(rest), middle_of(places)
+    from_middle, to_middle = middle_of(rest), middle_of(positions)
     here = [[p[k] - from_middle[k] for k in range(3)] for p in rest]
-    there = [[p[k] - to_middle[k] for k in range(3)] for p in places]
+    there = [[p[k] - to_middle[k] for k in range(3)] for p in positions]
     q = nearest_turn(here, there)
     return max(math.dist(rotated(q, a), b) for a, b in zip(here, there)) / section.size
 
 
-def volume_of(polygons, places):
+def volume_of(polygons, positions):
     """Enclosed by polygons cut into fans."""
     six = 0
     for polygon in polygons:
-        a = places[polygon[0]]
+        a = positions[polygon[0]]
         for second, third in zip(polygon[1:], polygon[2:]):
-            b, c = places[second], places[third]
+            b, c = positions[second], positions[third]
             six += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
                     a[2] * (b[0] * c[1] - b[1] * c[0]))
     return six / 6

@@ -334,12 +334,12 @@ class DamagedBundles(ProgramTest):
 
     def test_packed_with_a_byte_changed(self):
         content = bytearray(read_bytes(self.packed))
-        for place in [*range(0, 64), *range(64, len(content), 47)]:
-            content[place] ^= 0x5A
+        for position in [*range(0, 64), *range(64, len(content), 47)]:
+            content[position] ^= 0x5A
             changed = write_bytes(self.path("changed"), bytes(content))
-            content[place] ^= 0x5A
+            content[position] ^= 0x5A
             result = call("validate", changed)
-            self.assertIn(result.status, (0, BAD_INPUT), f"byte {place}: {result.err}")
+            self.assertIn(result.status, (0, BAD_INPUT), f"byte {position}: {result.err}")
             if result.status == 0:  # a gap between chunks, which no checksum covers
                 self.good("unpack", changed, "-o", self.path("whole.sbf"))
                 self.assertEqual(read_bytes(self.path("whole.sbf")), read_bytes(self.xml))

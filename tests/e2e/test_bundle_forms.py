@@ -142,10 +142,10 @@ class Forms(ProgramTest):
         whole = read_bytes(self.packed)
         count = int.from_bytes(whole[40:44], "little")
         entries = [whole[64 * (i + 1):64 * (i + 2)] for i in range(count)]
-        places = [(int.from_bytes(e[24:32], "little"), int.from_bytes(e[32:40], "little")) for e in entries]
+        positions = [(int.from_bytes(e[24:32], "little"), int.from_bytes(e[32:40], "little")) for e in entries]
         self.assertEqual(entries[-1][:4], b"OUTL")
-        gap = next(begin + size for (begin, size), (after, _) in zip(places, places[1:]) if begin + size < after)
-        for at, code in ((places[-1][0] + 5, "PACKED_CRC"), (gap, "PACKED_TABLE")):
+        gap = next(begin + size for (begin, size), (after, _) in zip(positions, positions[1:]) if begin + size < after)
+        for at, code in ((positions[-1][0] + 5, "PACKED_CRC"), (gap, "PACKED_TABLE")):
             damaged = bytearray(whole)
             damaged[at] ^= 0x10
             report = self.json_of("validate", write_bytes(self.path("damaged.sbfz"), bytes(damaged)), status=1)

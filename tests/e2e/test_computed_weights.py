@@ -233,7 +233,7 @@ class ComputedWeights(ProgramTest):
         joints = [("World", None, (0, 0, -3)), ("Pole", "World", (4, 4, -4))]
         joints += [(name, bones.names[parent] if parent is not None else "World", tuple(row[3] for row in frame))
                    for name, parent, frame in zip(bones.names, bones.parents, bones.worlds())]
-        joints += [("Aim" + name, "World", place) for name, _, place in joints if name.endswith(("Hand", "Foot"))]
+        joints += [("Aim" + name, "World", position) for name, _, position in joints if name.endswith(("Hand", "Foot"))]
         write_bvh(self.path("person.bvh"), joints)
         done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "-o", self.path("person.sbf"))
         self.assertNotIn("RIG_OBJECT_APART", done.err)

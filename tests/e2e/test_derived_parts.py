@@ -60,11 +60,11 @@ class Derived(ProgramTest):
 
     def test_a_changed_derived_part_does_not(self):
         text = read_text(self.file)
-        place = text.index("<stiffness>")
-        end = text.index("</stiffness>", place)
-        body = re.sub(r"\d+\.\d+", "1.5", text[place:end], count=1)
-        self.assertNotEqual(body, text[place:end])
-        other = write_bytes(self.path("other.sbf"), (text[:place] + body + text[end:]).encode())
+        position = text.index("<stiffness>")
+        end = text.index("</stiffness>", position)
+        body = re.sub(r"\d+\.\d+", "1.5", text[position:end], count=1)
+        self.assertNotEqual(body, text[position:end])
+        other = write_bytes(self.path("other.sbf"), (text[:position] + body + text[end:]).encode())
         self.assertNotIn("DERIVED_STALE", self.codes_of(other))
         self.good("build", other, "-o", self.path("built.sbf"))
         self.assertEqual(read_bytes(self.path("built.sbf")), read_bytes(self.file))

@@ -70,11 +70,11 @@ class Documents(ProgramTest):
         toured = read_text(TOURED)
         pieces = blocks(DOCUMENTS[1], "xml")
         self.assertGreaterEqual(len(pieces), 10)
-        places = []
+        positions = []
         for line, text in pieces:
             self.assertIn(text, toured, f"{DOCUMENTS[1]}:{line}")
-            places.append(toured.index(text))
-        self.assertEqual(places, sorted(places), "the tour goes through the file from front to back")
+            positions.append(toured.index(text))
+        self.assertEqual(positions, sorted(positions), "the tour goes through the file from front to back")
 
     def test_python_in_the_tour_runs(self):
         call("pack", self.path("lizard.sbf"), "-o", self.path("lizard.sbfz"))

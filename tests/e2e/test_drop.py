@@ -39,11 +39,11 @@ class Drop(ProgramTest):
         out = self.path("drop.pc2")
         report = self.json_of("run", path, *DROP, "--cache", out, "--of", "surface", *options)
         cache = PointCache(out)
-        places = array.array("f", cache.bytes[PC2_HEADER.size:])
+        positions = array.array("f", cache.bytes[PC2_HEADER.size:])
         size = 3 * cache.point_count
-        before, last = places[-2 * size:-size], places[-size:]
+        before, last = positions[-2 * size:-size], positions[-size:]
         speeds = (60 * math.dist(before[i:i + 3], last[i:i + 3]) for i in range(0, size, 3))
-        return report, min(places[1::3]), max(speeds)
+        return report, min(positions[1::3]), max(speeds)
 
     def fares_well(self, path, *options):
         report, lowest, speed = self.drop(path, *options)

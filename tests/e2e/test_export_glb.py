@@ -46,9 +46,9 @@ class Weights(ProgramTest):
         self.good("export", self.path("a.sbf"), "-o", self.path("a.glb"))
         glb = Glb(self.path("a.glb"))
         (_, primitive), = glb.primitives()
-        places, joints, weights = (glb.accessor(primitive["attributes"][name]) for name in ("POSITION", "JOINTS_0", "WEIGHTS_0"))
+        positions, joints, weights = (glb.accessor(primitive["attributes"][name]) for name in ("POSITION", "JOINTS_0", "WEIGHTS_0"))
         names = [glb.nodes[node].get("name") for node in glb.json["skins"][0]["joints"]]
-        found = {place: {names[j]: w for j, w in zip(joint, weight) if w} for place, joint, weight in zip(places, joints, weights)}
+        found = {position: {names[j]: w for j, w in zip(joint, weight) if w} for position, joint, weight in zip(positions, joints, weights)}
         self.assertEqual(found[(0, 0, 0)], {"b": 1})
         self.assertEqual(found[(0, 1, 0)], {"b": 1})
         (root, weight), = found[(1, 0, 0)].items()
@@ -80,14 +80,14 @@ class Motion(ProgramTest):
 
     def assert_plays(self, meshes, rest, now):
         """Every vertex is where one of the points is that it lay on at rest."""
-        places = {}
+        positions = {}
         for i, point in enumerate(rest):
-            places.setdefault(tuple(round(c, 4) for c in point), []).append(i)
+            positions.setdefault(tuple(round(c, 4) for c in point), []).append(i)
         maximum = minimum = 0
         for mesh in meshes:
             for before, after in zip(mesh["rest"], mesh["now"]):
                 key = tuple(round(c, 4) for c in before)
-                near = places.get(key) or [i for i, p in enumerate(rest) if math.dist(p, before) < 2e-4]
+                near = positions.get(key) or [i for i, p in enumerate(rest) if math.dist(p, before) < 2e-4]
                 self.assertTrue(near, f"{mesh['name']}: no point at {before}")
                 maximum = max(maximum, min(math.dist(now[i], after) for i in near))
                 minimum = max(minimum, min(math.dist(rest[i], after) for i in near))

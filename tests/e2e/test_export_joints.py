@@ -62,10 +62,10 @@ class Joints(ProgramTest):
         self.assertEqual(len(joints), sum(len(case.motions) for case in joint_files.CASES))
         posed = self.mujoco_pose(exported, {joint.get("name"): value_of(joint) for joint in joints})
         moved = 0
-        for name, (place, rotation) in self.runtime_pose(path).items():
+        for name, (position, rotation) in self.runtime_pose(path).items():
             x, y, z = posed[name]["position"]
             qw, qx, qy, qz = posed[name]["rotation"]
-            self.close((x, z, -y), place, 2e-3, f"{which}: the place of {name}")
+            self.close((x, z, -y), position, 2e-3, f"{which}: the place of {name}")
             self.same_rotation((qx, qz, -qy, qw), rotation, 2e-3, f"{which}: the rotation of {name}")
             moved += abs(rotation[3]) < 0.999 or name.startswith("slide")
         self.assertEqual(moved, len(joint_files.CASES))

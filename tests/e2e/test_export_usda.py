@@ -116,10 +116,10 @@ class Usda(ProgramTest):
         held = 0
         for prim in self.of_kind("PhysicsAttachment"):
             body, frame = (self.prims[prim.values[f"physics:src{i}"][1:-1]] for i in range(2))
-            places, points = prim.values["physics:coords1"], prim.values["physics:indices0"]
-            self.assertEqual(len(places), len(points))
+            positions, points = prim.values["physics:coords1"], prim.values["physics:indices0"]
+            self.assertEqual(len(positions), len(points))
             held += len(points)
-            for at, p in zip(places, points):
+            for at, p in zip(positions, points):
                 at = turned(frame.values.get("xformOp:orient", [1, 0, 0, 0]), at)
                 at = [a + b for a, b in zip(at, frame.values.get("xformOp:translate", [0, 0, 0]))]
                 self.assertLess(math.dist(at, body.values["points"][int(p)]), 2e-5, prim.path)

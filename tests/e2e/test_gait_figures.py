@@ -37,9 +37,9 @@ class Gait(ProgramTest):
         self.assertLess(kept[1], 0.8)
         self.assertIsNone(kept[2])
 
-    def faster_is_farther(self, *place):
+    def faster_is_farther(self, *position):
         """Many legs wait for balance, or for a chain that carries them: never for good."""
-        file = convert_once(self.class_folder.name, place[-1] + ".sbf", os.path.join(*place))
+        file = convert_once(self.class_folder.name, position[-1] + ".sbf", os.path.join(*position))
         leg = leg_of(file)
         slow, fast, fastest = (measure(file, straight("flat", speed), leg, "--seconds", "10")["distance"] for speed in (0.7, 1, 2.5))
         self.assertGreater(fast, 0.75 * leg * 10)

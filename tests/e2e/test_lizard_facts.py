@@ -36,12 +36,12 @@ def single(number):
 
 def read_obj(path):
     """{group: ([places in source order], [polygons as places in the group])}"""
-    places, groups, current = [], {}, None
+    positions, groups, current = [], {}, None
     used = {}
     for line in read_text(path).splitlines():
         key, _, rest = line.partition(" ")
         if key == "v":
-            places.append(tuple(single(n) for n in rest.split()))
+            positions.append(tuple(single(n) for n in rest.split()))
         elif key in ("g", "o"):
             current = groups.setdefault(rest.strip(), [])
         elif key == "f":
@@ -49,7 +49,7 @@ def read_obj(path):
     first = 0
     for name, polygons in groups.items():  # a group's vertices are the run up to its last corner
         last = max(max(p) for p in polygons) + 1
-        used[name.split("_")[0]] = (places[first:last], [[i - first for i in p] for p in polygons])
+        used[name.split("_")[0]] = (positions[first:last], [[i - first for i in p] for p in polygons])
         first = last
     return used
 
@@ -90,8 +90,8 @@ class ObjAndRig(ProgramTest):
         sections = by_name(self.info["sections"])
         self.assertEqual(len(self.info["sections"]), 18)
         self.assertEqual(set(sections), set(self.obj))
-        for name, (places, polygons) in self.obj.items():
-            self.assertEqual(sections[name]["vertices"], len(places), name)
+        for name, (positions, polygons) in self.obj.items():
+            self.assertEqual(sections[name]["vertices"], len(positions), name)
             self.assertEqual(sections[name]["polygons"], len(polygons), name)
         self.assertEqual(sum(s["vertices"] for s in sections.values()), 525)
         self.assertEqual(sum(s["polygons"] for s in sections.values()), 489)
@@ -102,9 +102,9 @@ class ObjAndRig(ProgramTest):
     def test_places_and_polygons_are_kept_in_source_order(self):
         sizes = []
         for body in self.tree.findall("soft_body"):
-            places, polygons = self.obj[body.get("name")]
+            positions, polygons = self.obj[body.get("name")]
             mesh = body.find("polygon_mesh")
-            self.assertEqual(triples([single(n) for n in numbers(mesh, "positions")]), places, body.get("name"))
+            self.assertEqual(triples([single(n) for n in numbers(mesh, "positions")]), positions, body.get("name"))
             self.assertEqual(polygons_of(mesh), polygons, body.get("name"))
             sizes += [len(p) for p in polygons_of(mesh)]
         self.assertEqual((sizes.count(4), sizes.count(3), len(sizes)), (488, 1, 489))
@@ -125,8 +125,8 @@ class ObjAndRig(ProgramTest):
 
     def test_bones_lie_where_the_rig_has_them_in_metres(self):
         heads = {b.get("name"): tuple(map(float, b.get("head").split())) for b in self.tree.iter("bone")}
-        for name, place in HEADS.items():
-            for here, there in zip(heads[name], place):
+        for name, position in HEADS.items():
+            for here, there in zip(heads[name], position):
                 self.assertAlmostEqual(here, there, delta=2e-4, msg=name)
 
     def test_height_and_bounds(self):
@@ -244,14 +244,14 @@ def read_glb(path):
     for node in document["nodes"]:
         if "mesh" not in node:
             continue
-        places = set()
+        positions = set()
         for primitive in document["meshes"][node["mesh"]]["primitives"]:
             accessor = document["accessors"][primitive["attributes"]["POSITION"]]
             view = document["bufferViews"][accessor["bufferView"]]
             start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
             step = view.get("byteStride", 12)
-            places |= {binary[start + i * step:start + i * step + 12] for i in range(accessor["count"])}
-        distinct[node["name"]] = places
+            positions |= {binary[start + i * step:start + i * step + 12] for i in range(accessor["count"])}
+        distinct[node["name"]] = positions
     return document, distinct
 
 

@@ -163,9 +163,9 @@ class NamedChains(ProgramTest):
             recorded = [theirs.pose(own, (frame + k) * tick) for k in (0, 8)]
             for side in ("Left", "Right"):
                 def gone(poses, bones, foot, thigh, knee):
-                    places = [[place(pose[bones.index(b)]) for b in (foot, thigh, knee)] for pose in poses]
-                    leg = math.dist(places[0][0], places[0][2]) + math.dist(places[0][1], places[0][2])
-                    return math.dist(places[0][0], places[1][0]) / leg
+                    positions = [[place(pose[bones.index(b)]) for b in (foot, thigh, knee)] for pose in poses]
+                    leg = math.dist(positions[0][0], positions[0][2]) + math.dist(positions[0][1], positions[0][2])
+                    return math.dist(positions[0][0], positions[1][0]) / leg
                 if gone(recorded, names, side + "Foot", side + "UpLeg", side + "Leg") < 0.008:
                     stood += 1
                     self.assertLess(gone(moved, self.names, *(f"{b}.{side[0]}" for b in ("foot", "thigh", "shin"))), 0.05)

@@ -31,8 +31,8 @@ class Played(ProgramTest):
         numbers, found = {bone.get("name"): i for i, bone in enumerate(bundle.bones)}, {}
         with open(self.path("pose.csv"), encoding="utf-8", newline="") as stream:
             for row in csv.DictReader(stream):
-                place = tuple(float(row[key]) for key in ("px", "py", "pz"))
-                found.setdefault(int(row["frame"]), {})[numbers[row["bone"]]] = place
+                position = tuple(float(row[key]) for key in ("px", "py", "pz"))
+                found.setdefault(int(row["frame"]), {})[numbers[row["bone"]]] = position
         return found
 
     def check(self, bundle_path, name, seconds, worst, usual):

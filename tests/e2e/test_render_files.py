@@ -23,16 +23,16 @@ def draws(ending, folder, file):
 def read_png(data):
     """Width, height and rows of RGB or RGBA bytes; checks signature and checksums on the way."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    place, packed, head = 8, b"", None
-    while place < len(data):
-        size, kind = struct.unpack_from(">I4s", data, place)
-        body = data[place + 8:place + 8 + size]
-        assert struct.unpack_from(">I", data, place + 8 + size)[0] == zlib.crc32(kind + body)
+    position, packed, head = 8, b"", None
+    while position < len(data):
+        size, kind = struct.unpack_from(">I4s", data, position)
+        body = data[position + 8:position + 8 + size]
+        assert struct.unpack_from(">I", data, position + 8 + size)[0] == zlib.crc32(kind + body)
         if kind == b"IHDR":
             head = struct.unpack(">IIBBBBB", body)
         elif kind == b"IDAT":
             packed += body
-        place += 12 + size
+        position += 12 + size
     width, height, depth, colour, _, _, interlaced = head
     assert (depth, interlaced) == (8, 0) and colour in (2, 6)
     channels = 3 if colour == 2 else 4

@@ -151,7 +151,7 @@ class Fixes(ProgramTest):
 
     # What is left to find in the file written, where that is not nothing.
     LEFT = {"tetrahedron_flat": {"LATTICE_POINT_UNUSED"}}
-    MENDED = ("tetrahedron_inverted", "tetrahedron_flat", "tetrahedron_duplicate", "surface_winding",
+    REPAIRED = ("tetrahedron_inverted", "tetrahedron_flat", "tetrahedron_duplicate", "surface_winding",
               "surface_inside_out", "point_unused", "mesh_point_unused", "spring_same_point", "spring_inert",
               "spring_duplicate", "pin_repeated", "skin_sum", "embedding_sum", "embedding_blend", "rotation_not_unit",
               "joint_frame", "normal_not_unit", "derived_stale")
@@ -165,7 +165,7 @@ class Fixes(ProgramTest):
         return report
 
     def test_repairable_faults_are_repaired(self):
-        for name in self.MENDED:
+        for name in self.REPAIRED:
             with self.subTest(name):
                 sample = os.path.join(INVALID, name + ".sbf")
                 before = {m["code"] for m in json.loads(read_text(report_beside(sample)))["messages"]}
@@ -181,7 +181,7 @@ class Fixes(ProgramTest):
             name = os.path.basename(sample)
             expected = json.loads(read_text(report_beside(sample)))
             loads = not any(m["code"] in structural() for m in expected["messages"])
-            if os.path.splitext(name)[0] in self.MENDED or not loads:
+            if os.path.splitext(name)[0] in self.REPAIRED or not loads:
                 continue
             with self.subTest(name):
                 report = self.fix(sample, status=0 if expected["valid"] else 1)

@@ -155,7 +155,7 @@ class Armadillo(ProgramTest):
                                     (shared("armadillo", "armadillo_1k.obj"), 500, LEAST_1K)):
             coarse = self.weights(path)[::3]
             self.assertGreater(3 * len(coarse), points)
-            same = sum(bone == min(fine, key=lambda f: math.dist(f[0], place))[1] for place, bone in coarse)
+            same = sum(bone == min(fine, key=lambda f: math.dist(f[0], position))[1] for position, bone in coarse)
             self.assertGreaterEqual(same / len(coarse), fraction)
 
 

@@ -12,7 +12,7 @@ from bundle_file import Bundle, matrix_of
 from bvh_file import write_bvh
 from glb_file import Glb
 from skinned_glb import SkinnedGlb, inverse_binds, tube
-from rigged_weights import (Original, add_clip, difference, posed, posed_errors, save_in_a_pose, share_of_equal,
+from rigged_weights import (Original, add_clip, difference, posed, posed_errors, save_in_a_pose, equal_fraction,
                             walk_motions, weights_by_vertex)
 from sbfmt_program import ROOT, SOURCE_PARTS, ProgramTest, main, read_text, shared, write_bytes
 
@@ -67,7 +67,7 @@ def rig_of_bones(points, faces, joints, hold):
     """A skin on bones below one root, each at its place; `hold` has a weight a bone for each point."""
     file = SkinnedGlb()
     root = file.node("Root")
-    worlds = [matrix_of(place) for place in joints.values()]
+    worlds = [matrix_of(position) for position in joints.values()]
     nodes = [file.node(name, root, world) for name, world in zip(joints, worlds)]
     of_point = [tuple(weights) + (0,) * (4 - len(joints)) for weights in hold]
     mesh = file.mesh(points, faces, [(0, 1, 2, 3)[:len(joints)] + (0,) * (4 - len(joints))] * len(points), of_point)
@@ -89,7 +89,7 @@ class ByPlace(ProgramTest):
         for name, (obj, printed) in same_mesh(self.calf.obj).items():
             with self.subTest(name):
                 result = self.convert(obj, *SOURCE_PARTS)
-                self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
+                self.assertGreaterEqual(equal_fraction(self.calf, obj, self.path("out.sbf")), 0.999)
                 self.assertIn(" from the same positions of the rig's mesh", result.err)
                 if printed:
                     self.assertIn(printed, result.err)
@@ -111,7 +111,7 @@ class ByPlace(ProgramTest):
         lizard = Original(LIZARD, self.class_folder.name)
         result = self.convert(variants.moved(lizard.obj, 1, ("-x", "y", "z"), (5, 1, -2)), *SOURCE_PARTS, rig=LIZARD)
         self.assertIn("mirrored in x, moved by (5, -1, 2) m", result.err)
-        self.assertGreaterEqual(share_of_equal(lizard, lizard.obj, self.path("out.sbf")), 0.999)
+        self.assertGreaterEqual(equal_fraction(lizard, lizard.obj, self.path("out.sbf")), 0.999)
         self.assertEqual(self.json_of("info", self.path("out.sbf"))["gait"], {"kind": "walk", "legs": 4})
 
     def test_pieces_cut_by_material_are_one_section(self):
@@ -137,7 +137,7 @@ class ByPlace(ProgramTest):
     def test_numbers_rounded_to_six_decimals(self):
         obj = variants.moved(self.calf.obj, 1000)  # a calf of a thousandth of a unit
         self.convert(obj, *SOURCE_PARTS, digits=6)
-        self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.99)
+        self.assertGreaterEqual(equal_fraction(self.calf, obj, self.path("out.sbf")), 0.99)
 
     def test_a_part_of_the_mesh(self):
         low = min(p[1] for p in self.calf.obj.points)
@@ -148,7 +148,7 @@ class ByPlace(ProgramTest):
         part = variants.renumbered(part, sorted({p for _, _, c in part.faces for p, _, _ in c}))
         obj = variants.shuffled(variants.moved(part, 0.0371, ("z", "x", "y"), (3, 0, 0)))
         self.convert(obj, *SOURCE_PARTS)
-        self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
+        self.assertGreaterEqual(equal_fraction(self.calf, obj, self.path("out.sbf")), 0.999)
 
     def test_normals_uvs_materials_and_order_stay(self):
         obj = variants.shuffled(variants.moved(self.calf.obj, 0.01, ("x", "-z", "y")))
@@ -183,11 +183,11 @@ class InSavedPose(ProgramTest):
 
     def check(self, obj, within):
         """Weights, places and normals are those of the skin as it was bound."""
-        self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
+        self.assertGreaterEqual(equal_fraction(self.calf, obj, self.path("out.sbf")), 0.999)
         size = variants.size_of(self.calf.obj)
-        for vertex, (_, place) in weights_by_vertex(self.path("out.sbf")).items():
+        for vertex, (_, position) in weights_by_vertex(self.path("out.sbf")).items():
             for origin in obj.origins[vertex]:
-                self.assertLess(math.dist(place, self.calf.places[origin]), within * size)
+                self.assertLess(math.dist(position, self.calf.places[origin]), within * size)
 
     def test_it_is_taken_back_to_the_bind_pose(self):
         obj = posed(self.calf, self.motions)
@@ -223,8 +223,8 @@ class InSavedPose(ProgramTest):
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertIn("has the pose of", done.err)
         self.assertIn("from the nearest surface", done.err)
-        gaps = sorted(math.dist(place, self.calf.places[vertex]) / variants.size_of(self.calf.obj)
-                      for vertex, (_, place) in weights_by_vertex(self.path("out.sbf")).items())
+        gaps = sorted(math.dist(position, self.calf.places[vertex]) / variants.size_of(self.calf.obj)
+                      for vertex, (_, position) in weights_by_vertex(self.path("out.sbf")).items())
         self.assertLess(gaps[int(0.99 * len(gaps))], 0.015)
 
     def test_real_files_saved_in_a_pose(self):
@@ -289,11 +289,11 @@ class AtAMomentOfAClip(ProgramTest):
     def check(self, obj, time):
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertIn(f"{time:.3f} s after the start of its clip 'kick'", done.err)
-        self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
+        self.assertGreaterEqual(equal_fraction(self.calf, obj, self.path("out.sbf")), 0.999)
         size = variants.size_of(self.calf.obj)
-        for vertex, (_, place) in weights_by_vertex(self.path("out.sbf")).items():
+        for vertex, (_, position) in weights_by_vertex(self.path("out.sbf")).items():
             for origin in obj.origins[vertex]:
-                self.assertLess(math.dist(place, self.calf.places[origin]), 1e-4 * size)
+                self.assertLess(math.dist(position, self.calf.places[origin]), 1e-4 * size)
         return done
 
     def test_a_frame(self):
@@ -463,7 +463,7 @@ class FromFile(ProgramTest):
             with self.subTest(ending):
                 self.good("export", self.calf.bundle, "-o", self.path("weights." + ending))
                 self.good(*self.convert(self.path("weights." + ending)))
-                self.assertEqual(share_of_equal(self.calf, self.calf.obj, self.path("out.sbf"), 1e-5), 1)
+                self.assertEqual(equal_fraction(self.calf, self.calf.obj, self.path("out.sbf"), 1e-5), 1)
 
     def test_the_file_decides(self):
         bones = sorted({bone for weights in self.calf.weights for bone in weights})
@@ -600,8 +600,8 @@ class FromBones(ProgramTest):
             with self.subTest(name):
                 printed = self.good(*self.convert(pieces, *SOURCE_PARTS, "--verbose")).err
                 self.assertRegex(printed, r"are open and share their borders, .*--weights named .*\[IMPORT_POINTS_JOINED\]")
-                found = {place: weights for weights, place in weights_by_vertex(self.path("out.sbf")).values()}
-                errors = sorted(difference(weights, found[place]) for weights, place in expected.values())
+                found = {position: weights for weights, position in weights_by_vertex(self.path("out.sbf")).values()}
+                errors = sorted(difference(weights, found[position]) for weights, position in expected.values())
                 self.assertLess(errors[int(0.95 * len(errors))], 1e-3)  # another order of points: other ties and rounding
         self.good(*self.convert(cut))
         report = self.json_of("run", self.path("out.sbf"), "--seconds", "2", "--drive", "0.3,0")

@@ -416,14 +416,14 @@ class Written(RigidTest):
 
     def assert_same_frames(self, joint, other, bodies, more, names):
         for side in "ab":
-            places = []
+            positions = []
             for one, all_bodies, ids in ((joint, bodies, names[0]), (other, more, names[1])):
                 body = one.get("body_" + side)
                 center = numbers(all_bodies[ids[body]].get("center", "0 0 0")) if body else [0, 0, 0]
                 frame = one.find("frame_" + side)
                 turn = numbers(frame.get("rotation", "0 0 0 1"))
-                places.append(([c + p for c, p in zip(center, numbers(frame.get("position", "0 0 0")))], turn))
-            (p, q), (r, s) = places
+                positions.append(([c + p for c, p in zip(center, numbers(frame.get("position", "0 0 0")))], turn))
+            (p, q), (r, s) = positions
             for x, y in zip(p, r):
                 self.assertAlmostEqual(x, y, delta=1e-5)
             self.assertAlmostEqual(abs(sum(x * y for x, y in zip(q, s))), 1, delta=1e-5)

@@ -105,7 +105,7 @@ def points_of_glb(path):
         if "JOINTS_0" in attributes:
             pairs = zip(glb.accessor(attributes["JOINTS_0"]), glb.accessor(attributes["WEIGHTS_0"]))
             influences = [tuple(sorted((j, w) for j, w in zip(*pair) if w > 0)) for pair in pairs]
-        found |= {(node, place, moved) for place, moved in zip(places, influences)}
+        found |= {(node, position, moved) for position, moved in zip(places, influences)}
     return len(found)
 
 

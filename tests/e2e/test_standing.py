@@ -33,19 +33,19 @@ class Standing(ProgramTest):
         return [cache.place(0, i) for i in range(cache.point_count)], report
 
     def test_its_lowest_point_begins_on_the_floor(self):
-        places, report = self.first_places(seconds="2")
-        self.assertAlmostEqual(min(y for _, y, _ in places), 0, delta=1e-5)
+        positions, report = self.first_places(seconds="2")
+        self.assertAlmostEqual(min(y for _, y, _ in positions), 0, delta=1e-5)
         self.assertTrue(report["valid"])
         self.assertGreater(report["volume_ratio"], 0.95)
 
     def test_it_is_raised_from_there(self):
-        places, _ = self.first_places("--raise", "0.25")
-        self.assertAlmostEqual(min(y for _, y, _ in places), 0.25, delta=1e-5)
+        positions, _ = self.first_places("--raise", "0.25")
+        self.assertAlmostEqual(min(y for _, y, _ in positions), 0.25, delta=1e-5)
 
     def test_on_a_slope_no_point_begins_below(self):
-        places, report = self.first_places("--ground", "slope:20", seconds="1")
+        positions, report = self.first_places("--ground", "slope:20", seconds="1")
         slope = 0.3639702  # tan 20 degrees
-        self.assertGreater(min(y - max(z, 0) * slope for _, y, z in places), -1e-5)
+        self.assertGreater(min(y - max(z, 0) * slope for _, y, z in positions), -1e-5)
         self.assertTrue(report["valid"])
 
     def test_what_is_above_the_ground_stays_there(self):
@@ -54,8 +54,8 @@ class Standing(ProgramTest):
             f"v {' '.join(str(float(n) + 2) for n in line.split()[1:])}\n" if line.startswith("v") else line + "\n"
             for line in CUBE.splitlines()).encode())
         self.good("convert", out, "--elements", "200", "-o", self.file)
-        places, _ = self.first_places()
-        self.assertAlmostEqual(min(y for _, y, _ in places), 1.3, delta=1e-5)
+        positions, _ = self.first_places()
+        self.assertAlmostEqual(min(y for _, y, _ in positions), 1.3, delta=1e-5)
 
     def test_real_bodies_stand(self):
         for name in ("spot/spot.obj", "bunny/bunny_902.obj"):

@@ -36,9 +36,9 @@ class TailShape(ProgramTest):
                 continue
             full, errors, volumes = volume_of(polygons, section.rest), [], []
             for sample in range(0, cache.sample_count, 3):
-                places = [cache.place(sample, section.first + i) for i in range(len(section.rest))]
-                errors.append(shape_error(section, [places[i] for i in section.used]))
-                volumes.append(volume_of(polygons, places) / full)
+                positions = [cache.place(sample, section.first + i) for i in range(len(section.rest))]
+                errors.append(shape_error(section, [positions[i] for i in section.used]))
+                volumes.append(volume_of(polygons, positions) / full)
             found[section.name] = (max(errors), min(volumes), max(volumes))
         return found
 

@@ -75,10 +75,10 @@ class Walks:
 
 class Others(ProgramTest):
     def file_of(self, name):
-        place, options, _ = OTHERS[name]
-        if not os.path.exists(os.path.join(*place)):
-            self.skipTest(f"{place[-1]} is not there")
-        return convert_once(self.class_folder.name, name + ".sbf", os.path.join(*place), *options)
+        position, options, _ = OTHERS[name]
+        if not os.path.exists(os.path.join(*position)):
+            self.skipTest(f"{position[-1]} is not there")
+        return convert_once(self.class_folder.name, name + ".sbf", os.path.join(*position), *options)
 
     def test_flat_walks_and_some_everywhere(self):
         for name, (_, _, known) in OTHERS.items():

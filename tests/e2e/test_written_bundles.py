@@ -22,10 +22,10 @@ class WrittenBundles(ProgramTest):
         """Nothing is written, neither at a new place nor over a file that is there."""
         self.assertTrue(os.path.exists(source))
         out, old = self.path("new" + ending), write_bytes(self.path("old" + ending), b"as it was")
-        for place in (out, old):
-            message = self.fails(1, command, source, "-o", place, *options)
+        for position in (out, old):
+            message = self.fails(1, command, source, "-o", position, *options)
             self.assertIn(f"[{code}]", message)
-            self.assertIn(f"{place} was not written: the result for {source} has 1 error", message)
+            self.assertIn(f"{position} was not written: the result for {source} has 1 error", message)
         self.assertFalse(os.path.exists(out))
         self.assertEqual(read_bytes(old), b"as it was")
 

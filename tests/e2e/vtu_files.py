@@ -38,8 +38,8 @@ def vtu(encoding="ascii", compress=False, big=False, wide=False, block=48, piece
         rows = arrays(points, cells)
         for where in ("Points", "Cells"):
             body.append(f"<{where}>\n")
-            for place, name, kind, letter, numbers in rows:
-                if place != where:
+            for position, name, kind, letter, numbers in rows:
+                if position != where:
                     continue
                 parts = f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{3 if name == "Points" else 1}"'
                 data = struct.pack(f"{order}{len(numbers)}{letter}", *numbers)

@@ -369,15 +369,15 @@ def page(godot, program):
     if len(lines) > 9:
         print(f"FAILED: {len(lines)} lines are no longer under ten")
         return False
-    with tempfile.TemporaryDirectory() as place:
-        os.mkdir(os.path.join(place, "build"))
-        os.symlink(os.path.abspath(godot.build), os.path.join(place, "build", "release"))
-        os.symlink(os.path.join(ROOT, "examples"), os.path.join(place, "examples"))
-        os.symlink(godot.folder, os.path.join(place, "mygame"))
+    with tempfile.TemporaryDirectory() as position:
+        os.mkdir(os.path.join(position, "build"))
+        os.symlink(os.path.abspath(godot.build), os.path.join(position, "build", "release"))
+        os.symlink(os.path.join(ROOT, "examples"), os.path.join(position, "examples"))
+        os.symlink(godot.folder, os.path.join(position, "mygame"))
         shutil.rmtree(os.path.join(godot.folder, "addons"))
         os.remove(os.path.join(godot.folder, "lizard.sbfz"))
         path = f"{os.path.dirname(os.path.abspath(program))}:{os.environ['PATH']}"
-        subprocess.run(["sh", "-e", "-c", commands], cwd=place, env={**os.environ, "PATH": path}, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["sh", "-e", "-c", commands], cwd=position, env={**os.environ, "PATH": path}, check=True, stdout=subprocess.DEVNULL)
     godot.write("main.gd", script)
     return godot.passes("page")
 

@@ -37,14 +37,14 @@ INSIDE = 'mount -t proc proc "$0/proc" && exec chroot "$0" "$@"'
 
 def mounted_below(folder):
     with open("/proc/self/mountinfo", encoding="utf-8") as file:
-        places = [line.split()[4].encode().decode("unicode_escape") for line in file]
-    return [place for place in places if place.startswith(os.path.realpath(folder) + os.sep)]
+        positions = [line.split()[4].encode().decode("unicode_escape") for line in file]
+    return [position for position in positions if position.startswith(os.path.realpath(folder) + os.sep)]
 
 
 def remove(folder):
-    places = mounted_below(folder)
-    if places:
-        sys.exit(f"{folder} is left: {', '.join(places)} is mounted in it")
+    positions = mounted_below(folder)
+    if positions:
+        sys.exit(f"{folder} is left: {', '.join(positions)} is mounted in it")
     shutil.rmtree(folder, ignore_errors=True)
 
 

@@ -40,7 +40,7 @@ def expect(condition, complaint):
 
 
 def files_below(folder):
-    return {os.path.relpath(os.path.join(place, name), folder) for place, _, names in os.walk(folder) for name in names}
+    return {os.path.relpath(os.path.join(position, name), folder) for position, _, names in os.walk(folder) for name in names}
 
 
 class Package:

@@ -16,15 +16,15 @@ from check_symbols import run
 from repo_files import SKIPPED, conclude, project_files
 
 
-def read(table, places):
-    """`table`: what `nm` prints of the library; `places`: file name -> path. Path -> path -> names that the first takes of the
+def read(table, positions):
+    """`table`: what `nm` prints of the library; `positions`: file name -> path. Path -> path -> names that the first takes of the
     second, and the members that have no source."""
     needs, owners, lost, member = {}, {}, [], None
     for line in table.splitlines():
         fields = line.split()
         if line.endswith(":"):
             name = line[:-1].rsplit(".", 1)[0]
-            member = places.get(name)
+            member = positions.get(name)
             if member is None:
                 lost.append(name)
             else:
@@ -83,9 +83,9 @@ def main():
     if not libraries:
         print("skipped: no static library given, as in a build with BUILD_SHARED_LIBS")
         sys.exit(SKIPPED)
-    places = {os.path.basename(path): path for path in project_files()
+    positions = {os.path.basename(path): path for path in project_files()
               if path.startswith(("libsbfmt/", "runtime/")) and path.endswith(".c") and not path.startswith("runtime/hosts/")}
-    calls, lost = read("".join(run("nm", path) for path in libraries), places)
+    calls, lost = read("".join(run("nm", path) for path in libraries), positions)
     faults = faults_of(calls, lost)
     count = sum(len(names) for others in calls.values() for names in others.values())
     if len(calls) < 20 or count < 100:

@@ -156,8 +156,8 @@ def faults_of(path, text, files):
         name, where = match.group(2), f"{path}:{line}"
         public = name.startswith(("sbfmt/", "sbrun/"))
         if match.group(1) == "<" and not public:
-            for pattern, places, what in OUTSIDE:
-                if re.match(pattern, name) and not any(re.match(place, path) for place in places):
+            for pattern, positions, what in OUTSIDE:
+                if re.match(pattern, name) and not any(re.match(position, path) for position in positions):
                     faults.append(f"{where}: <{name}>: {what} has no place in this folder")
         elif public:
             if header_box(name) not in BOX_USES[box_of(path)]:

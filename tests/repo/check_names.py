@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """File names are unique, so that one names its file wherever it is spoken of, and a file holds one idea. Identifiers and file
 names hold no private words where the field has a word of its own."""
+import io
 import re
+import tokenize
 
 from repo_files import conclude, is_generated, project_files, read_text
 
 CHECKED = (".c", ".h", ".cpp", ".py", ".sh", ".cmake", ".md", ".js", ".mjs", ".ts", ".glsl", ".vert", ".frag", ".comp")
 SHARED_NAMES = {"README.md", "__init__.py", "index.js", "index.ts"}
 MAX_LINES = 700
-# Words that may not stand between underscores in identifiers and file names of the C code, and the field's words for them.
+# Words that may not stand between underscores in identifiers and file names of C code and of scripts, and the field's words for them.
 PRIVATE_WORDS = {
     "most": "max", "least": "min", "guest": "external_body", "guests": "external_bodies", "rub": "friction_impulse",
     "wild": "unstable", "heed": "apply", "place": "position, index or path", "places": "positions",
@@ -27,20 +29,29 @@ PRIVATE_WORDS = {
     "carriers": "attachments or embedding points", "frayed": "torn_ends", "relapse": "repeat_window", "veil": "xray",
     "hindmost": "rearmost", "girdle": "limb_root", "leveller": "level_maker", "lonely": "boundary or isolated",
     "adrift": "unpinned", "dearer": "costlier", "dearest": "costliest", "hitch": "slow frame", "easel": "canvas",
-    "traveller": "translated_bone"}
+    "traveller": "translated_bone", "tells": "reports", "mends": "repairs", "mender": "repair reporter", "heeds": "applies",
+    "judged": "checked", "felt": "effect"}
 # Names of the format, its diagnostics and systems.
 KNOWN_NAMES = {
     "substeps_least", "substeps_most", "SBF_CODE_UNIT_LOOKS_WRONG", "SBF_CODE_DENSITY_LOOKS_WRONG",
     "SBF_CODE_GRAVITY_LOOKS_WRONG", "SBF_CODE_RIG_OBJECT_APART", "FILE_SHARE_READ", "FILE_SHARE_WRITE",
-    "FILE_SHARE_DELETE"}
+    "FILE_SHARE_DELETE", "mends_files", "settle", "most_substeps", "volume_least", "uneven_volume_least", "uneven_distance_share"}
+# Scripts whose identifiers are checked like those of the C code.
+SCRIPTS = ("exporters/", "bench/", "examples/", "cmake/")
 # Phrases whose words are the field's: stripped before the words are looked for.
 PHRASES = re.compile(r"least_squares|in_place")
 NOT_CODE = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'|^#include.*?$", re.DOTALL | re.MULTILINE)
 
 
+def identifiers_of(path, text):
+    if path.endswith(".py"):
+        return {token.string for token in tokenize.generate_tokens(io.StringIO(text).readline) if token.type == tokenize.NAME}
+    return set(re.findall(r"[A-Za-z_]\w*", NOT_CODE.sub(" ", text)))
+
+
 def name_faults_of(path, text):
-    """Private words in the identifiers of C code and in the file's name."""
-    names = set(re.findall(r"[A-Za-z_]\w*", NOT_CODE.sub(" ", text))) - KNOWN_NAMES
+    """Private words in the identifiers of C or Python code and in the file's name."""
+    names = identifiers_of(path, text) - KNOWN_NAMES
     names.add(path.rsplit("/", 1)[-1].rsplit(".", 1)[0])
     found = {(name, word) for name in names for word in PHRASES.sub("", name.lower()).split("_") if word in PRIVATE_WORDS}
     return [f"{path}: '{name}' holds '{word}': say '{PRIVATE_WORDS[word]}', or what it is" for name, word in sorted(found)]
@@ -63,7 +74,9 @@ def main():
     texts = {path: read_text(path) or "" for path in project_files()}
     faults = faults_of({path: text.count("\n") for path, text in texts.items()})
     for path, text in texts.items():
-        if path.endswith((".c", ".h", ".cpp")) and not path.startswith("tests/") and not is_generated(path):
+        is_checked = path.endswith((".c", ".h", ".cpp")) and not path.startswith("tests/") or \
+            path.endswith(".py") and path.startswith(SCRIPTS)
+        if is_checked and not is_generated(path):
             faults += name_faults_of(path, text)
     conclude(f"names and sizes of {len(texts)} files", faults)
 

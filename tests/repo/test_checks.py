@@ -135,6 +135,12 @@ class Names(unittest.TestCase):
         self.assertEqual(len(check_names.name_faults_of("a/guest_list.c", "int a;")), 1)
         self.assertEqual(len(check_names.name_faults_of("a/include/b.h", "struct { float share; };")), 1)
 
+    def test_private_words_in_scripts(self):
+        good = '"""The guest_list."""\nfraction = 1  # least_value\nname = "told"\n'
+        self.assertEqual(check_names.name_faults_of("bench/a.py", good), [])
+        for text in ("least_size = 1\n", "def f(guest):\n    pass\n", "a.told = 2\n"):
+            self.assertEqual(len(check_names.name_faults_of("bench/a.py", text)), 1, text)
+
 
 class Words(unittest.TestCase):
     def test_words(self):

@@ -58,8 +58,8 @@ class Packages(unittest.TestCase):
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
         for name in REAL:
-            found = next((os.path.join(place, name) for place in ("/usr/bin", "/bin")
-                          if os.path.exists(os.path.join(place, name))), None)
+            found = next((os.path.join(position, name) for position in ("/usr/bin", "/bin")
+                          if os.path.exists(os.path.join(position, name))), None)
             if found:
                 os.symlink(found, os.path.join(folder, name))
         for name, text in commands.items():

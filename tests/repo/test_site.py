@@ -32,11 +32,11 @@ class Page(HTMLParser):
 
 def dead_links(folder):
     pages = {}
-    for place, _, names in os.walk(folder):
+    for position, _, names in os.walk(folder):
         for name in names:
             if name.endswith(".html"):
-                with open(os.path.join(place, name), encoding="utf-8") as file:
-                    pages[os.path.join(place, name)] = Page(file.read())
+                with open(os.path.join(position, name), encoding="utf-8") as file:
+                    pages[os.path.join(position, name)] = Page(file.read())
     dead = []
     for path, page in pages.items():
         for link in page.links:

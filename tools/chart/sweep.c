@@ -80,9 +80,9 @@ static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_sc
     chart_motion_close(motion);
     return row->runs_us ? SBF_OK : no_memory(error);
   }
-  bool judged = row->runs_us && check(s, row, motion, truth, rest);
+  bool checked = row->runs_us && check(s, row, motion, truth, rest);
   row->visits = motion->visits;
-  return judged ? SBF_OK : no_memory(error);
+  return checked ? SBF_OK : no_memory(error);
 }
 
 /* Runs all settings of all schemes; `springs` support one more scheme. */

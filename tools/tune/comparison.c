@@ -17,7 +17,7 @@ const chart_drive tune_harsher_drive = {.speed = 0.5,
 /* Larger errors, as a fraction of the character's size, count as failures. */
 static const double LOST = 0.05;
 /* Maximum error of a usable reference as a fraction of the size. */
-static const double TELLS = 0.005;
+static const double MAX_REFERENCE_ERROR = 0.005;
 
 double tune_size_of(const sbf_asset *asset) {
   sbf_asset_measures is;
@@ -45,7 +45,7 @@ static void add_own_error(tune_comparison *comparison, int number, tune_by by) {
   /* At most one in k^2 exceeds k times the root mean square (Chebyshev). */
   const tune_distances own = {rms, fmin(10 * rms, max), max};
   double is = tune_distance_by(&own, by);
-  if (!(is < TELLS * comparison->size_m)) {
+  if (!(is < MAX_REFERENCE_ERROR * comparison->size_m)) {
     snprintf(comparison->unmeasured[number], sizeof comparison->unmeasured[number],
         "the reference itself has an error of %.2g m%s, measured with half as many substeps", is,
         by == TUNE_BY_MAX ? " at the worst place" : "");

@@ -217,13 +217,13 @@ def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=No
     if up not in (None, "y", "z"):
         raise ValueError(f"up is y or z, not {up!r}")
     callbacks, made, error = Callbacks(report), ctypes.c_void_p(), DiagnosticStruct()
-    pinned, held = ([(group.encode(), None if bone is None else bone.encode()) for group, bone in (names or {}).items()]
+    pinned, section_pins = ([(group.encode(), None if bone is None else bone.encode()) for group, bone in (names or {}).items()]
                     for names in (pins, holds))
     attached = [(body.encode(), holder.encode()) for body, holder in (attachments or {}).items()]
     options = ConvertOptions(ctypes.sizeof(ConvertOptions), None, path_bytes(rig), unit, up.encode() if up else b"\0",
                              not gait, path_bytes(helper), callbacks.report, None,
                              (ConvertPin * len(pinned))(*pinned), len(pinned), *goals, goal_stiffness, None, LIMITS.index(limits),
-                             keep_modulus, (ConvertPin * len(held))(*held), len(held),
+                             keep_modulus, (ConvertPin * len(section_pins))(*section_pins), len(section_pins),
                              (ConvertAttachment * len(attached))(*attached), len(attached))
     status = library().sbf_convert(path_bytes(path), ctypes.byref(options), ctypes.byref(made), ctypes.byref(error))
     asset = Asset(made.value) if status == OK else None

@@ -152,8 +152,8 @@ class Session:
         bones, origin = self.character.bones(len(self.number_of_bone)), self.character.origin
         frames = {}
         for name, number in self.bones.get(armature, ()):
-            place = self.space.point_back([a + b for a, b in zip(bones[number].position, origin)])
-            frames[name] = Matrix.Translation(place) @ self.space.rotation_back(bones[number].rotation).to_matrix().to_4x4()
+            position = self.space.point_back([a + b for a, b in zip(bones[number].position, origin)])
+            frames[name] = Matrix.Translation(position) @ self.space.rotation_back(bones[number].rotation).to_matrix().to_4x4()
         return frames
 
 

@@ -2,7 +2,7 @@
 """Draws docs/media/way-1.webp to way-5.webp, an example of each method by which an OBJ gets its weights from a rig
 (docs/converting.md). Needs cwebp (Debian: webp).
 
-    python3 examples/ways.py build/release/tools/sbfmt
+    python3 examples/weight_pictures.py build/release/tools/sbfmt
 """
 
 import os
@@ -41,10 +41,10 @@ class Drawing:
         self.run("export", self.path(name + ".sbf"), "-o", self.path(name + ".obj"))
         return variants.read(self.path(name + ".obj"))
 
-    def draw(self, way, obj, rig, view, *shown, weights=()):
+    def draw(self, method, obj, rig, view, *shown, weights=()):
         self.run("convert", obj, "--rig", rig, *weights, "-o", self.path("way.sbf"))
         self.run("render", self.path("way.sbf"), "-o", self.path("way.png"), "--size", SIZE, "--view", view, *shown)
-        out = os.path.join(MEDIA, f"way-{way}.webp")
+        out = os.path.join(MEDIA, f"way-{method}.webp")
         subprocess.run(["cwebp", "-quiet", "-q", "75", self.path("way.png"), "-o", out], check=True)
 
     def named(self):
@@ -89,11 +89,11 @@ class Drawing:
 
 def main():
     if len(sys.argv) != 2:
-        sys.exit("ways.py: give the program: ways.py build/release/tools/sbfmt")
+        sys.exit("weight_pictures.py: give the program: ways.py build/release/tools/sbfmt")
     with tempfile.TemporaryDirectory() as folder:
         drawing = Drawing(os.path.realpath(sys.argv[1]), folder)
-        for way in (drawing.named, drawing.match, drawing.transfer, drawing.compute, drawing.from_file):
-            way()
+        for method in (drawing.named, drawing.match, drawing.transfer, drawing.compute, drawing.from_file):
+            method()
 
 
 if __name__ == "__main__":
