@@ -1,4 +1,4 @@
-"""A Blender that runs scripts of this folder with the add-on as its zip installs it, and nothing of the user's own."""
+"""Runs scripts of this folder in Blender with the add-on installed from its zip, and without the user's settings."""
 
 import os
 import shutil

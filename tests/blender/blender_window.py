@@ -1,4 +1,4 @@
-"""A Blender with a screen of its own, which nobody sees, and what is on it."""
+"""Runs Blender on a virtual screen and takes screenshots of it."""
 
 import glob
 import os

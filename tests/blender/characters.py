@@ -1,4 +1,4 @@
-"""Whole characters made by script, as artists make them. Each function fills the scene; what it sets the tests compare with."""
+"""Makes complete characters by script, as artists make them. Each function fills the scene; tests compare exports with its settings."""
 
 import bmesh
 import bpy

@@ -1,5 +1,5 @@
-"""Runs in a Blender with a window: opens a bundle, uses the add-on as docs/blender.md tells, and takes a picture of every panel and
-of everything that is drawn in the viewport.
+"""Runs in Blender with a window: opens a bundle, follows docs/blender.md, and takes a picture of every panel and of every overlay in
+the viewport.
 
     blender --python draw_panels.py -- LIZARD.sbf SCREEN FOLDER [smooth]
 

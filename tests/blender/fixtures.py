@@ -1,4 +1,4 @@
-"""Scenes made by script, and what tests do with them."""
+"""Makes scenes by script, and exports and checks them for tests."""
 
 import math
 import os

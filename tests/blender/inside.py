@@ -1,5 +1,5 @@
-"""Runs in Blender: enables the add-on as a user would have it, then runs the test modules named behind `--`; of these, where the
-environment names a word as ONLY, the tests that have it in their name."""
+"""Runs in Blender: enables the add-on as a user does, then runs the test modules named after `--`. The environment variable ONLY
+selects tests whose names contain a word."""
 
 import importlib
 import os

@@ -1,4 +1,4 @@
-"""Inside Blender: exports a ball of about 100,000 vertices once, and prints what it took. bench_blender.py runs it.
+"""Runs in Blender: exports a ball of about 100,000 vertices once, and prints time and memory. bench_blender.py runs it.
 
     blender --python measure_export.py -- WRITER SKINNED OUT
 """

@@ -1,4 +1,4 @@
-"""The zip installs through Blender's own preferences, comes off again, and leaves nothing registered."""
+"""Tests that the zip installs through Blender's preferences, uninstalls, and leaves nothing registered."""
 
 import glob
 import os

@@ -1,4 +1,4 @@
-"""Bakes of the preview: point caches and shape keys play what the preview showed, are cut, and go away."""
+"""Tests bakes of the preview: point caches and shape keys play the same motion as the preview, and can be cut and removed."""
 
 import glob
 import math

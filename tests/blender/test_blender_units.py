@@ -1,4 +1,4 @@
-"""What Blender's sliders mean: measured in Blender itself, against the formulas of to_document/blender_units.py."""
+"""Compares the effect of Blender's sliders, measured in Blender, with the formulas of to_document/blender_units.py."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The build panel: what it says is what is built, shown and exported."""
+"""Tests that builds, overlays and exports use the settings of the build panel."""
 
 import bpy
 import fixtures

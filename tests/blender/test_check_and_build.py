@@ -1,4 +1,4 @@
-"""The check's list and what a click on it selects; the build and what is drawn of it."""
+"""Tests the list of the check and its selection, and the build and its overlay."""
 
 import bpy
 import fixtures

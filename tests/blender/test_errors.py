@@ -1,4 +1,4 @@
-"""What can't be exported: a clear report in Blender's way, nothing half written, and the file that was there kept."""
+"""Tests failing exports: Blender shows a clear report, no partial file is written, and the old file is kept."""
 
 import os
 from unittest import mock

@@ -1,4 +1,4 @@
-"""Soft bodies, cloth, pins, joints and gait: field by field what the scene says."""
+"""Compares exported soft bodies, cloth, pins, joints and gait with the scene, field by field."""
 
 import math
 

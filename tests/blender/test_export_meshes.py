@@ -1,4 +1,4 @@
-"""Meshes, materials and bones: what is in the file is what the scene has."""
+"""Compares exported meshes, materials and bones with the scene."""
 
 import math
 import os

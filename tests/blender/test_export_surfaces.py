@@ -1,4 +1,5 @@
-"""What is no mesh and becomes one: curves, NURBS surfaces, texts, metaballs, instances of geometry nodes. What can't is told."""
+"""Tests objects that are exported as meshes: curves, NURBS surfaces, texts, metaballs, instances of geometry nodes. Tests reports of
+objects that cannot be exported."""
 
 import bpy
 import fixtures

@@ -1,4 +1,4 @@
-"""Import and export again: an equal model, and what was changed in between is changed."""
+"""Tests import followed by export: the model is equal, except for changes made in between."""
 
 import glob
 import math

@@ -1,4 +1,4 @@
-"""What an import makes of a file is Blender's own: an export that remembers nothing of the file says nearly the same."""
+"""Tests that an import makes complete Blender objects: an export without the stored document writes nearly the same file."""
 
 import bpy
 import fixtures

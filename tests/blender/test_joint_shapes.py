@@ -1,4 +1,4 @@
-"""Cones and arcs of joints: their shapes, where they stand in the scene, and when they turn red."""
+"""Tests cones and arcs of joints: their shapes, their position in the scene, and when they turn red."""
 
 import math
 

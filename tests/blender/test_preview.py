@@ -1,4 +1,4 @@
-"""The preview: steps with the frames, resets, walks along a curve, and leaves nothing behind."""
+"""Tests that the preview steps with the frames, resets, walks along a curve, and leaves nothing behind."""
 
 import gc
 import math

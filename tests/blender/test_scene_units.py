@@ -1,4 +1,4 @@
-"""Scenes in other units than metres, objects scaled unevenly, and points that several bones hold."""
+"""Tests scenes in other units than metres, unevenly scaled objects, and points with weights of several bones."""
 
 import math
 

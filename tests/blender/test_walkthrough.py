@@ -1,5 +1,5 @@
-"""docs/blender.md, step by step: each step is done here in its order, and the words on the page are those on the screen. What it exports
-is left for the page's own commands, which whole_way.py gives."""
+"""Follows docs/blender.md step by step and checks that the labels on the page are those on the screen. whole_way.py runs the page's
+commands on the exported file."""
 
 import os
 import re

@@ -1,5 +1,5 @@
-"""Whole characters: exported, built, without an error, field by field what the script set; imported and exported again they are equal,
-as text and packed."""
+"""Tests complete characters: they export and build without errors, and their fields match the script. They stay equal after an import
+and another export, as text and packed."""
 
 import math
 

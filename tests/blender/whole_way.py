@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""From Blender to the runtime: what the add-on leaves the program finishes and runs. Exits 77 where something is missing.
+"""Tests the complete path from Blender to the runtime: the program builds and runs exported files. Exits 77 if something is missing.
 
     whole_way.py --program SBFMT [--root FOLDER] [--library FILE] CASE
 

@@ -1,5 +1,5 @@
-"""The source hash worked out from the text of the specification alone (spec/sbf.md, sections 4.2 and 6), for files
-that are canonical XML already: so attributes stand in order and numbers are in their shortest form."""
+"""Computes the source hash from the text of the specification alone (spec/sbf.md, sections 4.2 and 6). It handles files that are
+already canonical XML, with attributes in order and numbers in their shortest form."""
 
 import hashlib
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,4 @@
-"""As much of JSON Schema as spec/*.schema.json and Khronos's extensions use, and an error for every word of it that is not known here."""
+"""Implements the part of JSON Schema that spec/*.schema.json and Khronos's extensions use; reports an error for unknown keywords."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""A panel of 1 m that looks along +Z, with a material that is asked for, as binary glTF."""
+"""Writes a panel of 1 m that faces +Z, with a given material, as binary glTF."""
 import struct
 import zlib
 

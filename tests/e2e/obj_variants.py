@@ -1,4 +1,4 @@
-"""OBJ files, read, changed as other programs would have written them, and written again.
+"""Reads OBJ files, changes them as other programs would write them, and writes them.
 
 A point of an Obj knows which points of the first one it came from (`origins`), so that what a conversion makes of a
 variant can be compared with what it makes of the original: its weights are the mean of theirs."""

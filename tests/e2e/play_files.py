@@ -1,5 +1,5 @@
-"""Other programs that exported files are played in: three.js, Khronos's validator and MuJoCo under node, and Blender. Each gives None where
-it is not to be had."""
+"""Plays exported files in other programs: three.js, Khronos's validator and MuJoCo under node, and Blender. Each function returns None if
+the program is missing."""
 
 import functools
 import json

@@ -1,4 +1,4 @@
-"""Rigged files whose OBJ stands in another pose than their rig's mesh: arms that hang, legs in mid-stride."""
+"""Makes rigged files whose OBJ has another pose than the rig's mesh: hanging arms, legs in mid-stride."""
 
 import math
 import os

@@ -1,4 +1,4 @@
-"""Weights of a conversion against those of the original: how many points have the same, how far posed skins are apart."""
+"""Compares weights of a conversion with those of the original: the fraction of equal points, and the distance of posed skins."""
 
 import csv
 import math

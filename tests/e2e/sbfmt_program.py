@@ -1,4 +1,4 @@
-"""The built program, called as a user calls it, and what its tests share.
+"""Calls the built program as a user does; base classes for its tests.
 
 The program is that of the build folder SBFMT_BUILD_DIR, or SBFMT_PROGRAM itself; shared data lie in ../shared/data
 beside the checkout, or in SBFMT_SHARED_DATA. Where a whole test file has nothing to do it exits with 77, which ctest

@@ -1,5 +1,5 @@
-"""Small files of scene formats, written here: a box of 1 x 2 x 3 units with a corner at the origin, as each format says
-such a thing in its least words."""
+"""Writes small files in scene formats: a box of 1 x 2 x 3 units with a corner at the origin, as a minimal file of each
+format."""
 
 import base64
 import io

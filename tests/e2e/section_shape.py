@@ -1,5 +1,5 @@
-"""How far a section's surface is from its shape at rest, wherever it went and however it turned: by the rigid
-motion nearest to it (Horn, Closed-form solution of absolute orientation using unit quaternions, 1987)."""
+"""Measures the distance of a section's surface from its rest shape, after removing the nearest rigid motion
+(Horn, Closed-form solution of absolute orientation using unit quaternions, 1987)."""
 
 import math
 

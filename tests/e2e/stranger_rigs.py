@@ -1,4 +1,4 @@
-"""Small rigged characters as strangers send them: people of tubes, as many as one likes, anywhere and in any pose and unit."""
+"""Makes small rigged characters like those of unknown users: people of tubes in any number, position, pose and unit."""
 
 import math
 

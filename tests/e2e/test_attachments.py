@@ -1,5 +1,5 @@
-"""`--attach`: what of a soft body lies inside a rigid hull is held by it, on lattices and springs, and moves with its
-bone; an object that holds is neither soft nor drawn."""
+"""Tests `--attach`: points of a soft body inside a rigid hull are attached to it, on lattices and springs, and move with its
+bone. The attaching object is neither soft nor drawn."""
 
 import os
 

@@ -1,5 +1,5 @@
-"""Input that is at fault, and calls that are: a message that says what and where, the right exit status, no file left
-behind, no crash of ours even when a reader of others dies."""
+"""Tests faulty inputs and calls: the message names the fault and its location, the exit status is right, no file is left
+behind, and the program does not crash even if a third-party reader does."""
 
 import json
 import os

@@ -1,4 +1,5 @@
-"""What the sections of a skin may cost: the cheapest near the finest, the same each time, and fewer parts where that is too much."""
+"""Tests the cost budget of a skin's sections: it selects the cheapest level close to the finest, repeatably, and makes fewer parts soft
+if they cost too much."""
 
 import os
 import re

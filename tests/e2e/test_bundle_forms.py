@@ -1,4 +1,4 @@
-"""Both forms of a bundle: packed and unpacked to the same bytes, compared, validated, described alike."""
+"""Tests both forms of a bundle: they pack and unpack to the same bytes, and compare, validate and info treat them equally."""
 
 import os
 import re

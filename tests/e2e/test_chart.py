@@ -1,4 +1,4 @@
-"""`sbfmt chart`: tables and drawings of known cases; what they say agrees with closed forms; nothing half-written."""
+"""Tests `sbfmt chart`: tables and drawings of known cases agree with closed forms; no partial files are written."""
 
 import csv
 import io

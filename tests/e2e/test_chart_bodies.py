@@ -1,4 +1,4 @@
-"""`sbfmt chart` of solid bodies: schemes on bars and figures, and what calibrated coarse meshes are worth. Slow."""
+"""Tests `sbfmt chart` of solid bodies: schemes on bars and figures, and the error of calibrated coarse meshes. Slow."""
 
 import csv
 import os

@@ -1,5 +1,5 @@
-"""Animations of real files: what a bundle's clips do to its bones and skin, against what the source's own nodes, skin and
-keys do when they are evaluated by a few lines of Python."""
+"""Compares bones and skin of a bundle's clips with the source's nodes, skin and keys, evaluated by a few lines of Python. Uses
+real files."""
 
 import os
 import unittest

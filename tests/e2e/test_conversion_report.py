@@ -1,4 +1,4 @@
-"""`sbfmt convert --report`: an object by its schema, a page that needs nothing but itself, both whole or not there."""
+"""Tests `sbfmt convert --report`: the JSON fits its schema, the page needs no other files, and no partial file is written."""
 
 import base64
 import html.parser

@@ -1,4 +1,4 @@
-"""Dense skins: their soft parts are chosen on fewer vertices, so that memory goes to one build, and the result keeps all of them."""
+"""Tests dense skins: soft parts are chosen on fewer vertices to save memory, and the result keeps all vertices."""
 
 import resource
 import subprocess

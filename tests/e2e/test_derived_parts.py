@@ -1,5 +1,5 @@
-"""Derived parts remember their source: the hash is the one that the specification describes, a changed source makes
-them stale, a build makes them anew and leaves what is authored alone."""
+"""Tests the source hash of derived parts: it is the one of the specification, a changed source makes the parts stale, and
+a build replaces them and keeps authored parts."""
 
 import os
 import re

@@ -1,5 +1,5 @@
-"""What the documents show is true: programs in them compile, link and run, commands work, scripts drive, and pieces
-of a file stand in the file."""
+"""Tests the examples in the documents: programs compile, link and run, commands and drive scripts work, and quoted parts
+of a file are in the file."""
 
 import os
 import re

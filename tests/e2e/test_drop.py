@@ -1,5 +1,5 @@
-"""The thesis's drop: loose sections from a metre keep their volume at every frame, never go below the floor, and come to
-rest within five seconds; so do those of a surface four times as fine. What `examples/drop` shows."""
+"""Tests `examples/drop`, the drop of the thesis: loose sections fall from a metre, keep their volume in every frame, stay above
+the floor, and come to rest within five seconds. The same holds for a surface four times as fine."""
 
 import array
 import importlib.util

@@ -1,4 +1,4 @@
-"""The characters of examples/: converted without a warning, valid, and moving as their scripts say."""
+"""Tests the characters of examples/: they convert without a warning, are valid, and move as their scripts state."""
 
 import math
 import os

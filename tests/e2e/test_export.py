@@ -1,4 +1,4 @@
-"""The verb export, and the 2012 dialect both ways: what it means in SI, and that values go round."""
+"""Tests `export`, and reading and writing the 2012 dialect: its values in SI units, and round trips."""
 
 import os
 import re

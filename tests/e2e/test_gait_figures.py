@@ -1,4 +1,4 @@
-"""How well the example lizard walks: some of the walks of walks.py, against what was asked of them."""
+"""Tests how well the example lizard walks: some of the walks of walks.py, against their limits."""
 
 import os
 import unittest

@@ -1,4 +1,4 @@
-"""Kinds of gait by the program: a drive of three numbers, what `run` and `info` say, the same bits for any threads."""
+"""Tests kinds of gait in the program: a drive of three numbers, output of `run` and `info`, equal bits for any number of threads."""
 
 from sbfmt_program import ProgramTest, main, write_bytes
 

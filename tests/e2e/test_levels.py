@@ -1,5 +1,5 @@
-"""Levels of a real body: each carries every vertex, coarser ones are farther off and cheaper, --error takes the coarsest
-that is good enough, and render levels need no embeddings of their own."""
+"""Tests levels of a real body: each moves every vertex, coarser ones have larger errors and lower costs, --error selects the
+coarsest level within the error, and render levels need no embeddings."""
 
 import os
 import unittest

@@ -1,5 +1,5 @@
-"""Conversion of the thesis's lizard, against what its files say when they are read by other means: by a few lines
-of Python here, and by data/lizard/README.md."""
+"""Compares the conversion of the thesis's lizard with its files, read by a few lines of Python here, and with
+data/lizard/README.md."""
 
 import hashlib
 import json

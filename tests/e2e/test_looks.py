@@ -1,5 +1,5 @@
-"""What a material says of a surface shows in pictures and goes along into other files: vertex colours, alpha modes, sides,
-texture transforms and forms of images. Small panels, and the hue of pixels at known places. Skipped without EGL."""
+"""Tests materials in pictures and in exported files: vertex colours, alpha modes, sides, texture transforms and image formats.
+Draws small panels and checks the hue of pixels at known positions. Skipped without EGL."""
 
 import math
 import os

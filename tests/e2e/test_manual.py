@@ -1,4 +1,4 @@
-"""Manual pages and shell completion say all that --help says, in forms that their readers take."""
+"""Tests that manual pages and shell completion cover everything in --help, and that man and shells accept them."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""`run --clip`: soft bodies under an animation go where its keys take their bones, and nothing is turned inside out."""
+"""Tests `run --clip`: soft bodies follow the bones of an animation, and no element is inverted."""
 
 import csv
 import os

@@ -1,4 +1,4 @@
-"""Inputs whose limbs stand otherwise than those of the rig's mesh: the rig is turned limb by limb to meet them."""
+"""Tests inputs whose limbs are posed differently than the rig's mesh: the rig's limbs are rotated to match."""
 
 import math
 import re

@@ -1,5 +1,5 @@
-"""`sbfmt render`: pictures and films of the kind and size asked for, with something in them. Skipped where the
-machine has no EGL or no ffmpeg to draw with."""
+"""Tests `sbfmt render`: pictures and films have the requested type and size, and are not empty. Skipped if the
+machine has no EGL or no ffmpeg."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""Render levels through the program: what build makes, info tells, render draws and export writes."""
+"""Tests render levels in the program: build makes them, info prints them, render draws them and export writes them."""
 
 import os
 import unittest

@@ -1,4 +1,4 @@
-"""`sbfmt run --record` and `--replay`: what was recorded plays again to the bit, or says that it does not."""
+"""Tests `sbfmt run --record` and `--replay`: a recording replays to the bit, or the difference is reported."""
 
 import os
 

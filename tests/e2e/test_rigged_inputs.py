@@ -1,5 +1,5 @@
-"""What an OBJ may hold besides one mesh, and a rig besides one skin: several characters, vertex colours, free-form curves,
-objects named as bones, a skin of its own, several skins."""
+"""Tests unusual contents of an OBJ and its rig: several characters, vertex colours, free-form curves, objects named like bones,
+an OBJ that is another skin, several skins."""
 
 import json
 import os

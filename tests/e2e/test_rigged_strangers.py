@@ -1,4 +1,4 @@
-"""Meshes of others with skeletons of our own: a cow, an armadillo at three resolutions, a person with captured motion."""
+"""Tests third-party meshes with our skeletons: a cow, an armadillo at three resolutions, a person with captured motion."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""OBJ files with a rig in another file: where they lie, which bones move them, what is refused."""
+"""Tests OBJ files with a rig in another file: their alignment, the bones that move them, and rejected inputs."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""`sbfmt run` tells of bodies that lost their shape: put back into it and how often, inside out, overstretched, crushed."""
+"""Tests that `sbfmt run` reports bodies that lost their shape: recoveries and their number, inversion, overstretch, compression."""
 
 import math
 import os

@@ -1,4 +1,4 @@
-"""What of a skin becomes soft by default, and what is asked for instead."""
+"""Tests which parts of a skin become soft by default, and options that change this."""
 
 import os
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,4 @@
-"""`sbfmt run`: a body that nothing holds begins above the ground, wherever its file has the origin."""
+"""Tests that in `sbfmt run` bodies without pins always start above the ground, for any origin of the file."""
 
 import os
 

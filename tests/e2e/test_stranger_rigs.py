@@ -1,4 +1,4 @@
-"""Characters that strangers send: beside the origin, several in a file, lying, tiny. Each walks, or a finding says what to do."""
+"""Tests characters of unknown users: beside the origin, several in a file, lying, tiny. Each walks, or a message says what to do."""
 
 import json
 import re

@@ -1,5 +1,5 @@
-"""Sections of springs hold their shape to the tip of the tail, at rest under their weight and while they are
-shaken: their springs are as stiff as their matter."""
+"""Tests that sections of springs keep their shape to the tip of the tail, at rest under gravity and while shaken,
+because their springs have the stiffness of the material."""
 
 import os
 import unittest

@@ -1,5 +1,5 @@
-"""What assimp reads wrong in files of text without a word: joints of a second skeleton in Collada, and numbers that are none
-as Microsoft's libraries print them."""
+"""Tests errors that assimp does not report in text files: joints of a second skeleton in Collada, and NaN or infinity as
+Microsoft's libraries print them."""
 
 import os
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,5 @@
-"""`sbfmt tune`: what it writes is what was measured, keeps its goal, is found again, and is never half of a file."""
+"""Tests `sbfmt tune`: written settings match the measurements and reach the goal, the result is repeatable, and no partial file is
+written."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What section 5 of the specification says of versions, and packed.md of gaps: read alike by the library and the second reader."""
+"""Tests versions (section 5 of the specification) and gaps (packed.md): the library and the second reader treat them equally."""
 
 import os
 import struct

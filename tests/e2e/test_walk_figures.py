@@ -1,4 +1,4 @@
-"""A walk is a walk: what the program reports about it, and the same measured from the files it leaves."""
+"""Compares the program's figures of a walk with the same figures measured from the files that it writes."""
 
 import math
 import statistics

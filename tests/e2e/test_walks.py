@@ -1,5 +1,5 @@
-"""Every walk of walks.py of the two lizards and of some others, those of all others on flat ground, and straight ones off
-it, against what was asked for. Takes minutes."""
+"""Tests walks of walks.py against their limits: all walks of the two lizards and some others; of all other characters those on
+flat ground, and straight ones elsewhere. Takes minutes."""
 
 import concurrent.futures
 import os

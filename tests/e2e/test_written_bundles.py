@@ -1,4 +1,4 @@
-"""Every command that writes a bundle checks it first: what `validate` refuses takes the place of no file."""
+"""Tests that every command checks a bundle before it writes it: an invalid bundle replaces no file."""
 
 import os
 

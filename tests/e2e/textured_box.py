@@ -1,4 +1,4 @@
-"""A box of OBJ whose skin is one image of a colour or two, for tests that look for it in pictures."""
+"""Writes an OBJ box with an image of one or two colours as its texture, for tests that find it in pictures."""
 import os
 import struct
 import zlib

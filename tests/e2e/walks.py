@@ -1,4 +1,4 @@
-"""Walks that characters are judged by: speed x ground x command, what `run` measures of them, and what was asked for.
+"""Walks for evaluating characters: speed x ground x command, the measurements of `run`, and their limits.
 
 As a program it measures every walk of the files it is given and writes the tables of bench/results/any-machine/walks.md:
 

@@ -1,4 +1,4 @@
-"""What the tests of one example's files share: they are what its script makes, and its check can fail."""
+"""Base class for tests of an example's files: they match its script, and the script's check can fail."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""The example of a crowd: it compiles as C11 and as C++17, its levels come with distance, a budget is kept, its frames are whole."""
+"""Tests the crowd example: it compiles as C11 and C++17, levels depend on distance, the budget is kept, and frames are complete."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""A Godot that runs scripts in a project of its own with the add-on as it is installed, and nothing of the user's."""
+"""Runs scripts in Godot in a new project with the installed add-on, without the user's settings."""
 
 import os
 import shutil

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a program that is linked with the shared libraries rests on: their calls, and the layout of the public types.
+"""Compares the ABI of the shared libraries with abi.txt: their calls, and the layout of the public types.
 
 Usage: check_abi.py --source DIR --build DIR [--accept]
 Compares the shared libraries in the folder --build (built with -g) with abi.txt beside this script. What is gone, moved or of

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The Debian packages, installed with what they ask for into a clean system, and used there.
+"""Installs the Debian packages and their dependencies on a clean system, and uses them there.
 
 Usage: check_deb.py --source DIR --scratch DIR --packages DIR
 Skips (77) where it is not root's to do, or where debootstrap or the archive of packages is out of reach.

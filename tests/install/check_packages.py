@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `./run package` makes, each installed and used where nothing else of this project is.
+"""Installs and uses each package of `./run package` on a system without the rest of this project.
 
 Usage: check_packages.py --source DIR --build DIR --scratch DIR --cc CC [--cxx CXX] (--shared DIR | --packages DIR)
 

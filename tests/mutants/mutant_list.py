@@ -1,4 +1,4 @@
-"""The list of mistakes in mutants.txt, and where each of them stands in the source."""
+"""Reads the list of mistakes in mutants.txt, and finds each of them in the source."""
 import os
 from dataclasses import dataclass
 

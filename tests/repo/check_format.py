@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every C file is as clang-format 14 leaves it, with the .clang-format at the root; --mend makes it so."""
+"""Checks that every C file is formatted by clang-format 14 with the .clang-format at the root; --fix formats them."""
 import re
 import shutil
 import subprocess
@@ -23,7 +23,7 @@ def main():
         print("skipped: clang-format 14 is not installed (Debian: apt-get install clang-format-14)")
         sys.exit(SKIPPED)
     files = [path for path in project_files() if path.endswith((".c", ".h")) and not is_generated(path)]
-    if "--mend" in sys.argv[1:]:
+    if "--fix" in sys.argv[1:]:
         subprocess.run([program, "--style=file", "-i", *files], cwd=ROOT, check=True)
     printed = subprocess.run([program, "--style=file", "--dry-run", *files], cwd=ROOT, capture_output=True, text=True).stderr
     wrong = sorted(set(re.findall(r"^(\S+?):\d+:\d+: warning:", printed, re.MULTILINE)))

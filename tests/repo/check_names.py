@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""File names are unique, so that one names its file wherever it is spoken of, and a file holds one idea. Identifiers and file
-names hold no private words where the field has a word of its own."""
+"""Checks that file names are unique, that files are not too long, and that identifiers and file names have no private words where
+the field has a standard word."""
 import io
 import re
 import tokenize

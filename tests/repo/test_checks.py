@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Each check of this folder finds what it is there for, and lets pass what is right."""
+"""Tests that each check of this folder finds its faults and accepts correct input."""
 import os
 import tempfile
 import unittest

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Under node: what is made again and again is given back, wrong orders and wrong calls are told, and all of 32 bits can be addressed."""
+"""Tests under node that memory of repeated objects is freed, that wrong orders and wrong calls are reported, and that all of 32 bits can
+be addressed."""
 import json
 import os
 import sys

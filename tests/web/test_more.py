@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What native hosts have beside walking, under node: height fields, levels of detail, recordings. Of a recording that was made here the program
-gives the same state."""
+"""Tests other features of native hosts under node: height fields, levels of detail, recordings. The program replays a recording from
+node to the same state."""
 import json
 import os
 import sys

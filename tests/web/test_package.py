@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_package.py [TARBALL]: the npm package, packed here unless it is named, in a project of its own: packed, installed, run under node as its README says, checked by TypeScript and
-moved by three.js where npm can fetch those."""
+"""test_package.py [TARBALL]: tests the npm package in a new project; packs it first if no tarball is named. Installs it, runs its
+README's program under node, checks it with TypeScript, and moves it with three.js if npm can fetch them."""
 import os
 import re
 import sys

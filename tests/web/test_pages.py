@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Pages of characters unlike each other, opened in Chromium: with legs and without, a chain, loose flesh without bones, one that
+"""Opens pages of different characters in Chromium: with legs and without, a chain, a soft body without bones, one that
 hops, several levels, a skin with an image. Pictures go to BUILD/web-pictures."""
 import json
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""docs/web.md is true: its commands work, each of its programs runs as it stands, those for node under node, pages in Chromium from a
-server, and says what the document says. Pictures go to BUILD/web-pictures."""
+"""Tests docs/web.md: its commands work, and its programs run unchanged and print the documented output, under node or in Chromium
+from a server. Pictures go to BUILD/web-pictures."""
 import json
 import os
 import re

@@ -1,4 +1,4 @@
-"""What the tests of the WebAssembly runtime share: where things are, and bundles to step."""
+"""Paths and bundles for tests of the WebAssembly runtime."""
 import contextlib
 import functools
 import http.server
