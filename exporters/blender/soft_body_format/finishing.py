@@ -112,5 +112,5 @@ def in_blender(message):
 
 def add(found, findings, locator=None):
     """Adds a diagnostic of the library to the findings, with its object and bone."""
-    report_unsupported = {"error": findings.error, "warning": findings.warning}.get(found.severity, findings.info)
-    report_unsupported(in_blender(found.message), code=found.code, **(locator.locate(found) if locator else {}))
+    add = {"error": findings.error, "warning": findings.warning}.get(found.severity, findings.info)
+    add(in_blender(found.message), code=found.code, **(locator.locate(found) if locator else {}))
