@@ -99,7 +99,7 @@ def main():
     environment = {**os.environ, "SBFMT_BUILD_DIR": arguments.build, "PYTHONDONTWRITEBYTECODE": "1"}
     for name, package, command in checks(arguments, folder):
         if not package:
-            print(f"SKIP {name}: it was not made, see above", flush=True)
+            print(f"SKIP {name}: not made, see above: {name}", flush=True)
             skipped += 1
             continue
         done = subprocess.run([sys.executable, "-B", *command], capture_output=True, text=True, env=environment, check=False)
