@@ -9,7 +9,7 @@ EM_JS(int, copy_script_folder, (char *to, int size), {
   if (lengthBytesUTF8(folder) >= size) return 0;
   stringToUTF8(folder, to, size);
   return 1;
-});
+})
 
 bool sbfi_program_folder(char *to, size_t size) {
   return copy_script_folder(to, (int)size);

@@ -23,13 +23,13 @@ EM_JS(int, run_child, (const char *const *words, double wall_ms, double output_b
   if (child.error && child.error.code == 'ENOBUFS') return 4;
   if (child.error) return -1;
   return child.signal ? 1 : 0;
-});
+})
 
-EM_JS(int, child_status, (void), { return Module.child.status || 0; });
+EM_JS(int, child_status, (void), { return Module.child.status || 0; })
 EM_JS(int, child_signal, (void),
-    { return Module.child.signal ? require('os').constants.signals[Module.child.signal] || 1 : 0; });
-EM_JS(double, child_output_size, (void), { return Module.child.stdout ? Module.child.stdout.length : 0; });
-EM_JS(void, copy_child_output, (void *to), { HEAPU8.set(Module.child.stdout, to); });
+    { return Module.child.signal ? require('os').constants.signals[Module.child.signal] || 1 : 0; })
+EM_JS(double, child_output_size, (void), { return Module.child.stdout ? Module.child.stdout.length : 0; })
+EM_JS(void, copy_child_output, (void *to), { HEAPU8.set(Module.child.stdout, to); })
 /* The last `size` bytes of its standard error, or why it could not be run. */
 EM_JS(int, copy_child_words, (char *to, int size), {
   const error = Module.child.error, said = Module.child.stderr;
@@ -37,8 +37,8 @@ EM_JS(int, copy_child_words, (char *to, int size), {
   const last = bytes.subarray(Math.max(0, bytes.length - size));
   HEAPU8.set(last, to);
   return last.length;
-});
-EM_JS(void, release_child, (void), { delete Module.child; });
+})
+EM_JS(void, release_child, (void), { delete Module.child; })
 
 static sbf_status take_result(int end, sbfi_process_result *result, sbf_diagnostic *error) {
   char tail[SBFI_PROCESS_ERROR_TAIL];
