@@ -34,4 +34,4 @@ START_TEST(test_repeated)
 }
 END_TEST
 
-RULES_MAIN("mend_springs", test_springs_that_do_nothing, test_repeated)
+RULES_MAIN("fix_springs", test_springs_that_do_nothing, test_repeated)

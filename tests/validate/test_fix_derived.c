@@ -99,6 +99,6 @@ START_TEST(test_without_build)
 }
 END_TEST
 
-RULES_MAIN("mend_derived", test_stale_parts_are_made_anew_with_their_settings,
+RULES_MAIN("fix_derived", test_stale_parts_are_made_anew_with_their_settings,
     test_lattices_are_made_anew_as_they_were, test_what_others_made_stays,
     test_repairing_the_source_makes_derived_parts_stale, test_without_build)

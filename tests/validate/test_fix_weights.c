@@ -51,4 +51,4 @@ START_TEST(test_embeddings)
 }
 END_TEST
 
-RULES_MAIN("mend_weights", test_skins, test_skins_that_say_nothing, test_pins, test_embeddings)
+RULES_MAIN("fix_weights", test_skins, test_skins_that_say_nothing, test_pins, test_embeddings)

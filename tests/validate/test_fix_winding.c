@@ -84,6 +84,6 @@ START_TEST(test_any_of_a_cube)
 }
 END_TEST
 
-RULES_MAIN("mend_winding", test_one_polygon, test_outwards_though_most_face_inwards, test_inside_out,
+RULES_MAIN("fix_winding", test_one_polygon, test_outwards_though_most_face_inwards, test_inside_out,
     test_the_smaller_part_of_an_open_surface, test_a_hole_inside_stays_one, test_one_sided,
     test_any_of_a_cube)

@@ -37,4 +37,4 @@ START_TEST(test_levels_that_do_not_go_together)
 }
 END_TEST
 
-RULES_MAIN("mend_blends", test_two_bodies, test_too_large, test_levels_that_do_not_go_together)
+RULES_MAIN("fix_blends", test_two_bodies, test_too_large, test_levels_that_do_not_go_together)

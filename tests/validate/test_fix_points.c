@@ -65,5 +65,5 @@ START_TEST(test_points_without_polygons_stay)
 }
 END_TEST
 
-RULES_MAIN("mend_points", test_all_that_counts_points, test_levels_keep_their_points, test_named_points_stay,
+RULES_MAIN("fix_points", test_all_that_counts_points, test_levels_keep_their_points, test_named_points_stay,
     test_points_without_polygons_stay)

@@ -39,4 +39,4 @@ START_TEST(test_levels)
 }
 END_TEST
 
-RULES_MAIN("mend_pins", test_repeated, test_goals, test_levels)
+RULES_MAIN("fix_pins", test_repeated, test_goals, test_levels)

@@ -72,5 +72,5 @@ START_TEST(test_broken_embeddings_leave_the_mesh_alone)
 }
 END_TEST
 
-RULES_MAIN("mend_mesh_points", test_all_that_counts_points, test_points_of_coarser_levels_are_used,
+RULES_MAIN("fix_mesh_points", test_all_that_counts_points, test_points_of_coarser_levels_are_used,
     test_embeddings, test_broken_embeddings_leave_the_mesh_alone)

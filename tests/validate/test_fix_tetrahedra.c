@@ -44,4 +44,4 @@ START_TEST(test_repeated_ones_that_differ_stay)
 }
 END_TEST
 
-RULES_MAIN("mend_tetrahedra", test_turned_round, test_flat_and_repeated, test_repeated_ones_that_differ_stay)
+RULES_MAIN("fix_tetrahedra", test_turned_round, test_flat_and_repeated, test_repeated_ones_that_differ_stay)

@@ -42,4 +42,4 @@ START_TEST(test_normals)
 }
 END_TEST
 
-RULES_MAIN("mend_rotations", test_bones_and_joints, test_keys, test_normals)
+RULES_MAIN("fix_rotations", test_bones_and_joints, test_keys, test_normals)
