@@ -67,3 +67,15 @@ void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v) {
     sbfi_text_f32(&e->text, numbers[k]);
   }
 }
+
+void sbfi_export_bits(
+    sbfi_text *text, const char *name, uint32_t bits, const char *before, const char *after) {
+  bool first = true;
+  sbfi_export_print(text, "\"%s\":[", name);
+  for (unsigned k = 0; k < 32; k++)
+    if (bits >> k & 1) {
+      sbfi_export_print(text, "%s%s%u%s", first ? "" : ",", before, k, after);
+      first = false;
+    }
+  sbfi_text_char(text, ']');
+}

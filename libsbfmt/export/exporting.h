@@ -52,6 +52,9 @@ void sbfi_export_warn(sbfi_export *e, const char *format, ...) __attribute__((fo
 
 /* Appends text of up to 255 bytes. */
 void sbfi_export_print(sbfi_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* A JSON member with the numbers of the set bits as a list, each between `before` and `after`. */
+void sbfi_export_bits(
+    sbfi_text *text, const char *name, uint32_t bits, const char *before, const char *after);
 void sbfi_export_format(sbfi_export *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v); /* three numbers, each after a space */
 

@@ -35,25 +35,14 @@ static void write_material(sbfi_glb_rigid *r, const sbf_rigid_body *body) {
   sbfi_text_char(text, '}');
 }
 
-static void write_layers(sbfi_text *text, const char *name, uint32_t layers) {
-  bool first = true;
-  sbfi_export_print(text, "\"%s\":[", name);
-  for (unsigned k = 0; k < 32; k++)
-    if (layers >> k & 1) {
-      sbfi_export_print(text, "%s\"layer %u\"", first ? "" : ",", k);
-      first = false;
-    }
-  sbfi_text_char(text, ']');
-}
-
 static void write_filter(sbfi_glb_rigid *r, const sbf_rigid_body *body, uint32_t used_layers) {
   sbfi_text *text = &r->filters;
   uint32_t not_with = used_layers & ~body->mask;
   sbfi_text_string(text, r->filter_count++ ? ",{" : "{");
-  write_layers(text, "collisionSystems", body->layer);
+  sbfi_export_bits(text, "collisionSystems", body->layer, "\"layer ", "\"");
   if (not_with) {
     sbfi_text_char(text, ',');
-    write_layers(text, "notCollideWithSystems", not_with);
+    sbfi_export_bits(text, "notCollideWithSystems", not_with, "\"layer ", "\"");
   }
   sbfi_text_char(text, '}');
 }

@@ -13,17 +13,6 @@ typedef struct item_writer {
   uint32_t count;
 } item_writer;
 
-static void write_axes(sbfi_text *text, const char *name, unsigned axes) {
-  bool first = true;
-  sbfi_export_print(text, "\"%s\":[", name);
-  for (unsigned k = 0; k < 3; k++)
-    if (axes >> k & 1) {
-      sbfi_export_print(text, "%s%u", first ? "" : ",", k);
-      first = false;
-    }
-  sbfi_text_char(text, ']');
-}
-
 static void write_number(sbfi_text *text, const char *name, float value) {
   sbfi_export_print(text, ",\"%s\":", name);
   sbfi_text_f32(text, value);
@@ -33,7 +22,7 @@ static void write_limit(item_writer *w, bool angular, unsigned axes, const sbf_l
   float beyond = angular ? HALF_TURN : UNBOUNDED_M;
   if (!axes) return;
   sbfi_text_string(w->text, w->count++ ? ",{" : "{");
-  write_axes(w->text, angular ? "angularAxes" : "linearAxes", axes);
+  sbfi_export_bits(w->text, angular ? "angularAxes" : "linearAxes", axes, "", "");
   if (limit->min > -beyond) write_number(w->text, "min", limit->min);
   if (limit->max < beyond) write_number(w->text, "max", limit->max);
   if (limit->stiffness > 0) write_number(w->text, "stiffness", limit->stiffness);
