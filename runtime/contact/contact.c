@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "contact/contact_block.h"
 #include "contact/ground_contacts.h"
+#include "contact/point_contacts.h"
 #include "contact/sample_motion.h"
 #include "contact/self_contacts.h"
 #include "contact/soft_shape_contacts.h"
@@ -65,6 +66,7 @@ void sbri_contact_prepare(
   uint32_t *count = &tables->contact_counts[body - t->model->bodies], first_shape_contact = *count;
   tables->external_bodies->count = 0;
   sbri_soft_shape_contacts_add(t, body, tables);
+  if (body->contact.samples) sbri_point_contacts_limit(t, body, tables);
   if (body->self.face_count) {
     sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};
     sbri_self_contacts_add(t, body, tables, &tree);

@@ -30,6 +30,7 @@ typedef struct sbri_contact_tables {
   uint32_t *contact_counts;
   struct sbri_external_bodies *external_bodies; /* of the body */
   struct sbri_contact_reports *touched;         /* contacts of the body in the previous tick; for events */
+  sbri_point_contacts *point_contacts;          /* (slots) scratch */
   uint8_t *slot_contacts;      /* (slots) scratch: number of contacts that move each point, capped at 2 */
   const sbri_skin *surface;    /* of the body, at its present positions */
   struct sbri_box *self_boxes; /* scratch of the body for self contact */
@@ -62,6 +63,7 @@ typedef struct sbri_contact_rule {
   float max_correction_m; /* maximum correction of penetration in a substep, m */
   float slack_m;          /* penetration that is not corrected, m */
   float bounce_from_m_s;  /* minimum approach speed of a bounce, m/s */
+  float tolerance_m_s;    /* iterations end when none changes a velocity by more, m/s */
   float *pressing;        /* as in sbri_island_tick; for points with planes */
 } sbri_contact_rule;
 

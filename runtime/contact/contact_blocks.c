@@ -1,5 +1,6 @@
 #include "contact/contact_block.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "contact/contact.h"
@@ -53,6 +54,9 @@ static void fill_lane(const sbri_island_tick *t, const sbri_body *body, const sb
     block->responses[k][lane] = free ? s->weights[k] * island->inverse_masses[slot] * s->mass_kg : 0;
     t->contacts.slots[slot / SBRI_BLOCK] = 1;
   }
+  float weight_sum =
+      fabsf(s->weights[0]) + fabsf(s->weights[1]) + fabsf(s->weights[2]) + fabsf(s->weights[3]);
+  block->max_weight_sum = fmaxf(block->max_weight_sum, weight_sum);
   set3(block->normal, lane, contact->normal);
   set3(block->velocity, lane, contact->velocity);
   block->offset[lane] = contact->offset, block->mass_kg[lane] = s->mass_kg;

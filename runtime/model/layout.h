@@ -40,7 +40,8 @@ typedef struct sbri_rigid_layout {
 
 typedef struct sbri_contact_layout {
   size_t planes, pressing, near_ground;
-  size_t at, counts, blocks, block_counts, slots, islands, external_bodies, slot_contacts, weights, touching;
+  size_t at, counts, blocks, block_counts, slots, islands, external_bodies, slot_contacts, points, weights,
+      touching;
 } sbri_contact_layout;
 
 typedef struct sbri_self_contact_layout {

@@ -32,7 +32,7 @@ void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *
   size_t first = tick->island->first_slot;
   sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
       sbri_ground_pressing(c) + 2 * first, sbri_contacts(c), sbri_contact_counts(c), NULL, NULL,
-      sbri_slot_contacts(c) + first, NULL, NULL, NULL, NULL, NULL, NULL};
+      sbri_contacts_of_points(c) + first, sbri_slot_contacts(c) + first, NULL, NULL, NULL, NULL, NULL, NULL};
   memset(tick->contacts.slots, 0, (tick->island->slot_count + SBRI_BLOCK - 1) / SBRI_BLOCK);
   for (uint32_t b = 0; b < tick->island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];

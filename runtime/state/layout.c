@@ -151,6 +151,7 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->contacts.external_bodies =
       position(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_external_bodies));
   l->contacts.slot_contacts = position(&end, slots, 1);
+  l->contacts.points = position(&end, slots, sizeof(sbri_point_contacts));
   l->contacts.weights = position(&end, slots, sizeof(float));
   l->self.boxes = position(&end, e->self_faces, sizeof(sbri_box));
   l->self.balls = position(&end, e->self_faces, sizeof(sbri_moving_ball));

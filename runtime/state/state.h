@@ -210,10 +210,11 @@ SBRI_SCRATCH_PART(contact_slots, uint8_t, contacts.slots)                /* (slo
 /* (island_count) 1: in contact with bodies of characters in this tick; unset without such contacts */
 SBRI_SCRATCH_PART(contact_islands, uint8_t, contacts.islands)
 SBRI_SCRATCH_PART(external_bodies_of, struct sbri_external_bodies, contacts.external_bodies) /* (bodies) */
-SBRI_SCRATCH_PART(contact_weights, float, contacts.weights)               /* (slot_count) */
-SBRI_SCRATCH_PART(slot_contacts, uint8_t, contacts.slot_contacts)         /* (slot_count) */
-SBRI_SCRATCH_PART(soft_touching, sbri_contact_reports, contacts.touching) /* (bodies) */
-SBRI_SCRATCH_PART(rigid_touching, sbri_contact_reports, rigid.touching)   /* (rigid bodies) */
+SBRI_SCRATCH_PART(contact_weights, float, contacts.weights)                 /* (slot_count) */
+SBRI_SCRATCH_PART(contacts_of_points, sbri_point_contacts, contacts.points) /* (slot_count) */
+SBRI_SCRATCH_PART(slot_contacts, uint8_t, contacts.slot_contacts)           /* (slot_count) */
+SBRI_SCRATCH_PART(soft_touching, sbri_contact_reports, contacts.touching)   /* (bodies) */
+SBRI_SCRATCH_PART(rigid_touching, sbri_contact_reports, rigid.touching)     /* (rigid bodies) */
 SBRI_SCRATCH_PART(self_boxes, sbri_box, self.boxes) /* (triangles of bodies with self-contact) */
 SBRI_SCRATCH_PART(self_balls, sbri_moving_ball, self.balls)
 SBRI_SCRATCH_PART(self_nodes, sbri_bounds_node, self.nodes) /* (twice that, and one per body) */

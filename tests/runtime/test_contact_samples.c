@@ -164,7 +164,11 @@ START_TEST(a_push_is_a_force_at_that_place)
   sbri_contact_block_counts(c)[0] = 0;
   if (_i == 0) sbri_contact_blocks_fill(&tick, body_of(&s));
   ck_assert_uint_eq(sbri_contact_block_count(&tick, body_of(&s)), _i == 0);
-  sbri_contact_rule rule = {friction, 0, NULL, 1e-3f, 1, 0, 0.05f, NULL};
+  sbri_contact_rule rule = {.friction = friction,
+      .step_s = 1e-3f,
+      .max_correction_m = 1,
+      .bounce_from_m_s = 0.05f,
+      .tolerance_m_s = 1e-3f};
   solve(&tick, body_of(&s), &rule);
   sbf_vec3 after_v = velocity_of(&tick, sample);
   momenta after = momenta_of(&tick, position);
@@ -285,6 +289,34 @@ START_TEST(position_based_steps_know_samples)
   ck_assert_double_lt(f.speed_m_s, 0.02);
   scene_free(&s);
 }
+
+static uint32_t contact_count(const scene *s) {
+  return sbri_contact_counts(sbri_character_of(s->world, s->character))[0];
+}
+
+/* Nine points of the lattice support 81 vertices of the lower face. */
+START_TEST(resting_points_keep_few_contacts_and_striking_ones_keep_all)
+{
+  scene s = carried_box(8, SBF_PRESSURE_MODE_NONE);
+  s.world_definition.sleep_after_s = 0;
+  scene_body(&s, 0)->attributes.damping_ratio = 0.5f;
+  s.character_definition.position.y = 0.3;
+  scene_start(&s);
+  uint32_t most = 0;
+  for (int i = 0; i < 60; i++) {
+    sbr_world_tick(s.world);
+    most = contact_count(&s) > most ? contact_count(&s) : most;
+  }
+  ck_assert_uint_ge(most, 81);
+  fall f = fall_of(&s);
+  ck_assert_uint_gt(contact_count(&s), 8);
+  ck_assert_uint_le(contact_count(&s), 9 * SBRI_CONTACTS_PER_POINT);
+  ck_assert_double_gt(f.end_m, -2e-4);
+  ck_assert_double_lt(f.speed_m_s, 0.02);
+  scene_free(&s);
+}
+END_TEST
+
 END_TEST
 
 static Suite *suite(void) {
@@ -296,6 +328,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, a_push_is_a_force_at_that_place, 0, 2);
   tcase_add_loop_test(c, a_surface_beyond_its_lattice_stays_above_the_ground, 0, 6);
   tcase_add_test(c, position_based_steps_know_samples);
+  tcase_add_test(c, resting_points_keep_few_contacts_and_striking_ones_keep_all);
   suite_add_tcase(s, c);
   return s;
 }

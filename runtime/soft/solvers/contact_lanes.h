@@ -23,8 +23,7 @@
 #include "contact/contact_block.h"
 #include "soft/solvers/spring_forces.h"
 
-/* Iterations of a substep end when no velocity changes by more than this in one, m/s, and at the maximum. */
-#define SBRI_CONTACT_RESTING_M_S 1e-3f
+/* Of a substep; they end earlier at the tolerance of sbri_contact_rule. */
 enum { SBRI_MAX_CONTACT_ITERATIONS = 16 };
 /* A contact is skipped in a substep if it would not reach its plane even if it were this much faster, m/s. */
 #define SBRI_CONTACT_NEAR_M_S 1.0f
@@ -307,13 +306,11 @@ static inline void sbri_contact_solve(
   uint32_t count = sbri_contact_block_count(t, body);
   sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
   bool changed = false, any = false;
-  float fastest =
-      sbri_contact_load_velocities(t, body, velocities) * (1 + 2 * body->contact.max_extrapolation);
-  float displacement = 2 * rule->step_s * fastest + rule->max_correction_m,
+  float fastest = sbri_contact_load_velocities(t, body, velocities),
         near = rule->step_s * SBRI_CONTACT_NEAR_M_S;
   for (uint32_t b = 0; b < count; b++) {
     blocks[b].is_near = false;
-    blocks[b].clearance_m -= displacement;
+    blocks[b].clearance_m -= blocks[b].max_weight_sum * 2 * rule->step_s * fastest + rule->max_correction_m;
     if (blocks[b].clearance_m > near && !blocks[b].is_moving) continue;
     changed = sbri_contact_begin(t, &blocks[b], rule) || changed;
     any = any || blocks[b].is_near;
@@ -321,8 +318,8 @@ static inline void sbri_contact_solve(
   if (!any) return;
   if (changed) sbri_contact_sum_rows(t, body, blocks, count);
   sbri_contact_warm_start(t, blocks, count);
-  float resting = SBRI_CONTACT_RESTING_M_S * SBRI_CONTACT_RESTING_M_S, square = resting;
-  for (int i = 0; i < SBRI_MAX_CONTACT_ITERATIONS && square >= resting; i++)
+  float tolerance = rule->tolerance_m_s * rule->tolerance_m_s, square = tolerance;
+  for (int i = 0; i < SBRI_MAX_CONTACT_ITERATIONS && square >= tolerance; i++)
     square = sbri_contact_iterate(t, blocks, count, i % 2);
   for (uint32_t b = 0; b < count; b++)
     if (blocks[b].is_near && blocks[b].has_impulses) sbri_contact_finish(t, &blocks[b], rule);

@@ -8,9 +8,6 @@
 #include "shapes/external_body.h"
 #include "soft/solvers/pinned_impulse.h"
 
-/* Iteration continues while a velocity changes by more than this, m/s. */
-static const float CONVERGED_M_S = 1e-3f;
-
 /* A contact is skipped in the substep if it would not reach its plane even if it were this much faster, m/s.
  * Most contacts near the ground are separated, and they must not cost iterations. */
 static const float NEAR_M_S = 1;
@@ -310,8 +307,8 @@ void sbri_soft_contacts_solve(
   c.count = prepare_contacts(&c, rule);
   const int iterations = c.external_bodies ? MAX_EXTERNAL_BODY_ITERATIONS : MAX_ITERATIONS;
   apply_warm_start(&c);
-  float max = CONVERGED_M_S;
-  for (int iteration = 0; iteration < iterations && max >= CONVERGED_M_S; iteration++) {
+  float max = rule->tolerance_m_s;
+  for (int iteration = 0; iteration < iterations && max >= rule->tolerance_m_s; iteration++) {
     max = 0;
     for (uint32_t i = 0; i < c.count; i++) {
       sbri_soft_contact *contact = &c.contacts[iteration % 2 ? c.count - 1 - i : i];
