@@ -27,7 +27,7 @@ typedef struct mjcf_rigid {
 
 /* Counts of parts that the format cannot store. */
 typedef struct mjcf_unsupported {
-  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, without_level, loop_bounds,
+  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, velocities, without_level, loop_bounds,
       goals, moduli, ratios, bending, sharing, selves;
 } mjcf_unsupported;
 

@@ -99,6 +99,11 @@ static void write_matter(mjcf_writer *w, const sbf_rigid_body *body) {
   sbfi_text_string(text, "\"/>\n");
 }
 
+static bool has_velocity(const sbf_rigid_body *body) {
+  const sbf_vec3 v = body->velocity, turn = body->angular_velocity;
+  return v.x != 0 || v.y != 0 || v.z != 0 || turn.x != 0 || turn.y != 0 || turn.z != 0;
+}
+
 /* Writes the tag and the content except child bodies. `joint`: MJCF_END for none. */
 static void open_body(mjcf_writer *w, uint32_t i, int32_t parent, uint32_t end) {
   const sbf_asset *asset = w->e->asset;
@@ -106,6 +111,7 @@ static void open_body(mjcf_writer *w, uint32_t i, int32_t parent, uint32_t end) 
   sbfi_text *text = &w->e->text;
   const sbf_vec3 from = parent < 0 ? (sbf_vec3){0, 0, 0} : asset->rigid_bodies.at[parent].center;
   bool kinematic = is_kinematic(asset, (int32_t)i);
+  w->unsupported.velocities += !kinematic && has_velocity(body);
   w->rigid.is_written[i] = true;
   w->rigid.parent[i] = parent;
   sbfi_text_string(text, "    <body name=\"");

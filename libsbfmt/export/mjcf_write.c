@@ -52,7 +52,7 @@ sbf_status sbfi_export_mjcf(sbfi_export *e) {
       {w.unsupported.bending, "held sheets' bending"},
       {w.unsupported.ratios, "Poisson ratios outside 0 to 0.499"},
       {w.unsupported.massless, "moving bodies with a mass of 0"},
-      {w.unsupported.loops, "joints that close loops"},
+      {w.unsupported.velocities, "initial velocities"}, {w.unsupported.loops, "joints that close loops"},
       {w.unsupported.loop_bounds, "limits and drives of joints that close loops"},
       {w.unsupported.pulleys, "pulleys"}, {w.unsupported.soft_limits, "limits' springs"},
       {w.unsupported.drives, "speeds, limits and distances of drives"},

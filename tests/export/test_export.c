@@ -36,6 +36,11 @@ static void keep(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
+static void keep_first(void *user, const sbf_diagnostic *diagnostic) {
+  sbf_diagnostic *first = user;
+  if (first->code == 0) *first = *diagnostic;
+}
+
 START_TEST(omissions_are_reported)
 {
   sbf_asset *asset = bar();
@@ -44,6 +49,24 @@ START_TEST(omissions_are_reported)
   ck_assert_int_eq(sbf_export(asset, harness_scratch("bar.tet"), &options, NULL), SBF_OK);
   ck_assert_int_eq(warning.code, SBF_CODE_EXPORT_LEFT_OUT);
   ck_assert_ptr_nonnull(strstr(warning.message, "rigid bodies: 2"));
+  sbf_asset_free(asset);
+}
+END_TEST
+
+/* MJCF's keyframes would need the velocities of all joints and points. */
+START_TEST(mjcf_reports_initial_velocities)
+{
+  sbf_asset *asset = bar();
+  sbf_rigid_body *bodies = (sbf_rigid_body *)(uintptr_t)asset->rigid_bodies.at;
+  sbf_diagnostic warning = {0};
+  const sbf_export_options options = {.report = keep_first, .user = &warning};
+  for (uint32_t i = 0; i < asset->rigid_bodies.count; i++) {
+    bodies[i].motion = i ? SBF_BODY_MOTION_DYNAMIC : SBF_BODY_MOTION_KINEMATIC;
+    bodies[i].angular_velocity.y = 1;
+  }
+  ck_assert_int_eq(sbf_export(asset, harness_scratch("bar.mjcf"), &options, NULL), SBF_OK);
+  ck_assert_int_eq(warning.code, SBF_CODE_EXPORT_LEFT_OUT);
+  ck_assert_ptr_nonnull(strstr(warning.message, "initial velocities: 1"));
   sbf_asset_free(asset);
 }
 END_TEST
@@ -182,6 +205,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("forms");
   tcase_add_test(c, the_2012_dialect_goes_round);
   tcase_add_test(c, omissions_are_reported);
+  tcase_add_test(c, mjcf_reports_initial_velocities);
   tcase_add_test(c, nothing_to_write_and_unknown_endings_are_errors);
   tcase_add_test(c, what_moves_with_its_bones_needs_no_offsets);
   tcase_add_test(c, mjcf_is_turned_and_nests_what_joints_hold);
