@@ -27,8 +27,8 @@ typedef struct mjcf_rigid {
 
 /* Counts of parts that the format cannot store. */
 typedef struct mjcf_unsupported {
-  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, velocities, without_level, loop_bounds,
-      goals, moduli, ratios, bending, sharing, selves;
+  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, velocities, without_level,
+      loop_bounds, goals, moduli, ratios, bending, sharing, selves;
 } mjcf_unsupported;
 
 typedef struct mjcf_writer {

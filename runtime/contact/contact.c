@@ -23,12 +23,14 @@ static void convert_planes_to_contacts(
     for (uint32_t lane = 0; lane < SBRI_BLOCK && *count < body->contact.max_count; lane++) {
       sbri_sample s = sbri_point_sample(t, block * SBRI_BLOCK + lane);
       if (s.slots[0] >= body->slots.real_end || !(s.mass_kg > 0)) continue;
-      tables->contacts[body->contact.first + (*count)++] = (sbri_soft_contact){.sample = s,
+      sbri_soft_contact *contact = &tables->contacts[body->contact.first + (*count)++];
+      *contact = (sbri_soft_contact){.sample = s,
           .normal = {plane[lane], plane[SBRI_BLOCK + lane], plane[2 * SBRI_BLOCK + lane]},
           .offset = plane[3 * SBRI_BLOCK + lane],
           .friction_scale = 1,
           .restitution = body->contact.restitution,
           .collider = SBRI_NO_COLLIDER};
+      contact->gap = sbri_contact_predicted_gap(t, contact);
     }
   }
 }

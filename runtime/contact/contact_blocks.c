@@ -83,7 +83,7 @@ void sbri_contact_blocks_fill(const sbri_island_tick *t, const sbri_body *body) 
     for (uint32_t i = 0; i < count; i++) {
       sbri_contact_block *block = &blocks[filled / SBRI_BLOCK];
       uint32_t lane = filled % SBRI_BLOCK;
-      bool is_far = sbri_contact_predicted_gap(t, &contacts[i]) > near;
+      bool is_far = contacts[i].gap > near;
       if (is_far != pass) continue;
       if (lane == 0) memset(block, 0, sizeof *block);
       block->contacts[lane] = i;

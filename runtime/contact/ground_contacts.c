@@ -133,15 +133,17 @@ static float margin_of(const sbri_island_tick *t, const sbri_body *body, float f
   return t->tick_s * extra_speed + MIN_MARGIN_FRACTION * body->rest_size_m;
 }
 
+/* gap, rise: present gap, and its change in the tick at the present velocity, m */
 static void add_contact(const sbri_island_tick *t, const sbri_body *body, const sbri_sample *s,
-    sbf_vec3 normal, float offset, const sbri_contact_tables *to) {
+    sbf_vec3 normal, float offset, float gap, float rise, const sbri_contact_tables *to) {
   uint32_t *count = &to->contact_counts[body - t->model->bodies];
   to->contacts[body->contact.first + (*count)++] = (sbri_soft_contact){.sample = *s,
       .normal = normal,
       .offset = offset,
       .friction_scale = 1,
       .restitution = body->contact.restitution,
-      .collider = SBRI_NO_COLLIDER};
+      .collider = SBRI_NO_COLLIDER,
+      .gap = gap + (rise < 0 ? rise : 0)};
 }
 
 static void add_sample(const sbri_island_tick *t, const sbri_body *body, const sbri_sample *s, float margin,
@@ -149,9 +151,9 @@ static void add_sample(const sbri_island_tick *t, const sbri_body *body, const s
   if (!(s->mass_kg > 0)) return;
   sbf_vec3 x = sbri_sample_position(t, s), n;
   float y = height_at(t, x.x, x.z, &n), offset = n.x * x.x + n.y * y + n.z * x.z;
-  float approach = -sbri_dot(n, sbri_sample_velocity(t, s));
-  if (sbri_dot(n, x) - offset > (approach > 0 ? approach : 0) * 2 * t->tick_s + margin) return;
-  add_contact(t, body, s, n, offset, to);
+  float gap = sbri_dot(n, x) - offset, rise = t->tick_s * sbri_dot(n, sbri_sample_velocity(t, s));
+  if (gap + 2 * (rise < 0 ? rise : 0) > margin) return;
+  add_contact(t, body, s, n, offset, gap, rise, to);
 }
 
 /* Lower bound of the heights of the group's samples. */
@@ -189,7 +191,7 @@ static void add_group(const flat_search *f, const sbri_sample_group *group) {
       gap += s->weights[k] * p->x, rise += s->weights[k] * p->y;
     }
     if (gap + 2 * (rise < 0 ? rise : 0) > f->margin || !(s->mass_kg > 0)) continue;
-    add_contact(f->tick, f->body, s, sbri_vec3(0, 1, 0), f->height, f->tables);
+    add_contact(f->tick, f->body, s, sbri_vec3(0, 1, 0), f->height, gap, rise, f->tables);
   }
 }
 

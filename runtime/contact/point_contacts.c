@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "contact/sample_motion.h"
-
 /* Cosine of the angle between normals that count as one direction. */
 static const float SIMILAR_COSINE = 0.9f;
 
@@ -25,7 +23,8 @@ static bool is_similar(const sbri_soft_contact *a, const sbri_soft_contact *b) {
 }
 
 /* Inserts the contact in the order of gaps, and marks the one that falls out. */
-static void insert(sbri_point_contacts *p, sbri_soft_contact *contacts, uint32_t index, float gap) {
+static void insert(sbri_point_contacts *p, sbri_soft_contact *contacts, uint32_t index) {
+  float gap = contacts[index].gap;
   if (p->count == SBRI_CONTACTS_PER_POINT && gap >= p->gaps[p->count - 1]) {
     mark(&contacts[index]);
     return;
@@ -50,9 +49,9 @@ void sbri_point_contacts_limit(
   if (body->is_pinned) clear(points, t->island->free_count, t->island->slot_count);
   for (uint32_t i = 0; i < *count; i++) {
     sbri_point_contacts *p = &points[owner_of(&contacts[i].sample)];
-    if (sbri_contact_opening_speed(t, &contacts[i]) < -SBRI_STRIKE_M_S) continue;
+    if (contacts[i].gap < -SBRI_STRIKE_M_S * t->tick_s) continue;
     if (p->count > 0 && !is_similar(&contacts[i], &contacts[p->contacts[0]])) continue;
-    insert(p, contacts, i, sbri_contact_predicted_gap(t, &contacts[i]));
+    insert(p, contacts, i);
   }
   for (uint32_t i = 0; i < *count; i++)
     if (contacts[i].sample.mass_kg > 0) contacts[kept++] = contacts[i];

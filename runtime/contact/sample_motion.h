@@ -18,18 +18,12 @@ static inline sbf_vec3 sbri_sample_velocity(const sbri_island_tick *t, const sbr
   return v;
 }
 
-/* Rate of change of a contact's gap, m/s; negative if it closes. The velocity of an external body counts as
- * 0.
- */
-static inline float sbri_contact_opening_speed(const sbri_island_tick *t, const sbri_soft_contact *contact) {
-  sbf_vec3 v = sbri_sample_velocity(t, &contact->sample);
-  return sbri_dot(contact->normal, contact->external_body ? v : sbri_sub(v, contact->velocity));
-}
-
-/* Gap of a contact at the end of the tick at its present velocity, m; the present gap if it opens. */
+/* Gap of a contact at the end of the tick at its present velocity, m; the present gap if it opens. The
+ * velocity of an external body counts as 0. */
 static inline float sbri_contact_predicted_gap(const sbri_island_tick *t, const sbri_soft_contact *contact) {
-  float gap = sbri_dot(contact->normal, sbri_sample_position(t, &contact->sample)) - contact->offset,
-        speed = sbri_contact_opening_speed(t, contact);
+  sbf_vec3 n = contact->normal, v = sbri_sample_velocity(t, &contact->sample);
+  float gap = sbri_dot(n, sbri_sample_position(t, &contact->sample)) - contact->offset;
+  float speed = sbri_dot(n, contact->external_body ? v : sbri_sub(v, contact->velocity));
   return gap + t->tick_s * (speed < 0 ? speed : 0);
 }
 

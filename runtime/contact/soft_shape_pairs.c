@@ -1,4 +1,5 @@
 /* Adds contacts of soft bodies with host shapes, for both kinds of queries. */
+#include "contact/sample_motion.h"
 #include "contact/soft_shape_contacts.h"
 #include "shapes/external_body.h"
 
@@ -23,4 +24,5 @@ void sbri_shape_contact_add(const sbri_shape_pair *m, const sbri_sample *s, sbf_
   contact->external_body = sbri_external_body_of(m->tables->external_bodies, &context, &m->frame, m->number);
   if (contact->external_body)
     contact->arm = sbri_sub(position, m->tables->external_bodies->at[contact->external_body - 1].centre);
+  contact->gap = sbri_contact_predicted_gap(t, contact);
 }

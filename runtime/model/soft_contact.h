@@ -34,12 +34,13 @@ typedef struct sbri_soft_contact {
   uint8_t external_body; /* 1-based index of the body's external body that receives the impulse
                             (shapes/external_body.h); 0: none */
   /* Solver state (soft/solvers/soft_contacts.c, contact/contact_blocks.c): */
-  float gap, target_speed; /* separation, m, and target normal velocity, m/s, at the beginning of a substep */
-  float velocity_change;   /* normal velocity change by the contact, m/s */
-  sbf_vec3 friction_impulse;      /* friction, tangential */
-  sbri_pressing pressing;         /* before this substep */
-  float max_velocity_change;      /* maximum velocity_change in the tick */
-  float closing_speed;            /* maximum closing speed in the tick, m/s; for events */
+  float gap, target_speed;   /* separation, m, and target normal velocity, m/s, at the beginning of a substep;
+                                before the first, the gap predicted for the end of the tick */
+  float velocity_change;     /* normal velocity change by the contact, m/s */
+  sbf_vec3 friction_impulse; /* friction, tangential */
+  sbri_pressing pressing;    /* before this substep */
+  float max_velocity_change; /* maximum velocity_change in the tick */
+  float closing_speed;       /* maximum closing speed in the tick, m/s; for events */
   sbf_vec3 total_velocity_change; /* sum of velocity changes in the tick, m/s */
 } sbri_soft_contact;
 
