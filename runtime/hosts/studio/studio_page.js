@@ -1,0 +1,2 @@
+/* The page's elements. */
+export const element = (id) => document.getElementById(id);

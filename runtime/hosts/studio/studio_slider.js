@@ -1,0 +1,34 @@
+/* A slider with its number and unit; on a logarithmic scale unless it is told otherwise. */
+
+/** Three digits, with the prefix of the unit that keeps them short. */
+export function shortNumber(value, unit) {
+  if (unit === 'Pa') {
+    const [factor, prefix] = value >= 1e6 ? [1e6, 'MPa'] : value >= 1e3 ? [1e3, 'kPa'] : [1, 'Pa'];
+    return `${Number((value / factor).toPrecision(3))} ${prefix}`;
+  }
+  if (unit === 'm' && value < 1) return `${Number((100 * value).toPrecision(3))} cm`;
+  return `${Number(value.toPrecision(3))}${unit ? ` ${unit}` : ''}`;
+}
+
+/** `change(value)` is called when it is moved. A label with { element, set(value) }. */
+export function slider({ label, unit, low, high, linear }, value, change) {
+  const element = document.createElement('label'), text = document.createElement('span'), shown = document.createElement('output');
+  const input = Object.assign(document.createElement('input'), { type: 'range', min: 0, max: 1, step: 0.001 });
+  const toValue = (at) => (linear ? low + at * (high - low) : low * (high / low) ** at);
+  const toPlace = (number) => (linear ? (number - low) / (high - low) : Math.log(Math.max(number, low) / low) / Math.log(high / low));
+  const tell = (number) => {
+    shown.textContent = shortNumber(number, unit);
+    input.setAttribute('aria-valuetext', shown.textContent);
+  };
+  element.className = 'slider';
+  text.textContent = label;
+  element.append(text, shown, input);
+  const set = (number) => {
+    input.value = toPlace(number);
+    tell(number);
+  };
+  set(value);
+  input.addEventListener('input', () => tell(toValue(Number(input.value))));
+  input.addEventListener('change', () => change(Number(toValue(Number(input.value)).toPrecision(3))));
+  return { element, set };
+}
