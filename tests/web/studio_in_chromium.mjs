@@ -74,7 +74,7 @@ expect(plain === bytesOf('plain.sbfz').length, `${plain} bytes, natively ${bytes
 
 // Another material is a change that can be undone, by the bytes.
 await tab.click('#tabShape');
-const modulus = () => tab.evaluate(() => document.querySelector('#materialNumbers output').textContent);
+const modulus = () => tab.evaluate(() => document.querySelector('#materialNumbers .value').textContent);
 const before = await modulus();
 await made(() => tab.selectOption('#material', 'muscle'));
 lap('material changed');
@@ -122,9 +122,11 @@ expect(await tab.evaluate(() => studio.stage.cast.length === 3), 'there are not 
 await tab.waitForTimeout(1000);
 await shoot('studio-play');
 await tab.click('#film');
-await tab.waitForTimeout(1000);
+const filmed = await tab.evaluate(() => studio.stage.time);
+await tab.waitForFunction((began) => studio.stage.time > began + 0.5, filmed);
 const [film] = await Promise.all([tab.waitForEvent('download'), tab.click('#film')]);
-expect(film.suggestedFilename() === 'pup.webm' && readFileSync(await film.path()).length > 1000, `a film: ${film.suggestedFilename()}`);
+expect(film.suggestedFilename() === 'pup.webm' && readFileSync(await film.path()).length > 1000,
+  `a film: ${film.suggestedFilename()} of ${readFileSync(await film.path()).length} bytes`);
 await tab.click('#chart g >> nth=-1');
 expect(await tab.evaluate(() => typeof studio.stage.choices.level === 'string'), 'the chart chooses no level');
 await tab.click('#stepOnce');
@@ -176,7 +178,7 @@ const contrast = () => tab.evaluate(() => {
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
   };
   const paper = light(getComputedStyle(document.querySelector('aside')).backgroundColor);
-  return Math.min(...[...document.querySelectorAll('aside h1, aside h2, aside label, aside p, aside small, aside [role=tab], aside output')].map((one) => {
+  return Math.min(...[...document.querySelectorAll('aside h1, aside h2, aside label, aside p, aside small, aside [role=tab], aside .value')].map((one) => {
     const ink = light(getComputedStyle(one).color);
     return (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05);
   }));

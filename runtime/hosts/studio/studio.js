@@ -79,7 +79,7 @@ class Studio {
       if (abort.signal.reason === 'again') return;
       if (!first) this.goBack(recipe);
       if (error instanceof Cancelled || abort.signal.aborted) return;
-      tellTrouble(`${recipe.input}: ${error.message}`);
+      tellTrouble(error.message.startsWith(recipe.input) ? error.message : `${recipe.input}: ${error.message}`);
       if (error instanceof Refused) this.listFindings(error.findings);
       else console.warn(error);
     } finally {

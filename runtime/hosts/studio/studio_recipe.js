@@ -25,13 +25,11 @@ export function chooseInput(names) {
 /** Thrown when the program refuses: its own words. */
 export class Refused extends Error {
   constructor(errors) {
-    const last = errors.filter((line) => / error: /.test(line)).map(withoutHead);
-    super(last.join(' ') || errors.at(-1) || 'the program gave no reason');
-    this.findings = errors.map(findingOf);
+    const findings = errors.map(findingOf), wrong = findings.filter(({ severity }) => severity === 'error').map(({ message }) => message);
+    super(wrong.join('; ') || errors.at(-1) || 'the program gave no reason');
+    this.findings = findings;
   }
 }
-
-const withoutHead = (line) => line.replace(/^sbfmt \w+: \w+: /, '');
 
 /** A line of the program as { severity, code, message }. */
 export function findingOf(line) {

@@ -12,7 +12,7 @@ export function shortNumber(value, unit) {
 
 /** `change(value)` is called when it is moved. A label with { element, set(value) }. */
 export function slider({ label, unit, low, high, linear }, value, change) {
-  const element = document.createElement('label'), text = document.createElement('span'), shown = document.createElement('output');
+  const element = document.createElement('label'), text = document.createElement('span'), shown = document.createElement('span');
   const input = Object.assign(document.createElement('input'), { type: 'range', min: 0, max: 1, step: 0.001 });
   const toValue = (at) => (linear ? low + at * (high - low) : low * (high / low) ** at);
   const toPlace = (number) => (linear ? (number - low) / (high - low) : Math.log(Math.max(number, low) / low) / Math.log(high / low));
@@ -21,6 +21,7 @@ export function slider({ label, unit, low, high, linear }, value, change) {
     input.setAttribute('aria-valuetext', shown.textContent);
   };
   element.className = 'slider';
+  shown.className = 'value';
   text.textContent = label;
   element.append(text, shown, input);
   const set = (number) => {

@@ -4,7 +4,7 @@ import { boneShapes, vector } from './viewer_draw.js';
 
 /** Keys that swimmers and flyers rise and sink by. */
 const HEIGHTS = { PageUp: 1, PageDown: -1 };
-const MARK_COLOR = [0.95, 0.35, 0.05, 1];
+const MARK_COLOR = [1, 0.12, 0, 1], MARK_WIDTH = 0.2;
 /** Neighbours stand so many sizes apart. */
 const SPACING = 1.3;
 
@@ -46,6 +46,11 @@ export class StudioStage extends Show {
       this.others.push({ character, skins: this.dress(character) });
     }
     this.changed?.();
+  }
+
+  choose(name, value) {
+    super.choose(name, value);
+    if (name === 'count') this.camera.distance = this.size * (1.2 + 0.4 * value); // so that all are seen
   }
 
   /** What is asked of every character: keys, or else the speed and turn of the panel. */
@@ -96,7 +101,7 @@ export class StudioStage extends Show {
     if (!this.marked.length) return;
     const all = this.character.bones(), poses = new Float32Array(7 * this.marked.length);
     this.marked.forEach((bone, i) => poses.set(all.subarray(7 * bone, 7 * bone + 7), 7 * i));
-    const mesh = this.meshOf(boneShapes(poses, this.marked.map((bone) => this.asset.bones[bone].length || 0.1 * this.size)));
+    const mesh = this.meshOf(boneShapes(poses, this.marked.map((bone) => this.asset.bones[bone].length || 0.1 * this.size), MARK_WIDTH));
     this.painter.drawOver(() => this.painter.drawMesh(mesh, [{ color: MARK_COLOR, roughness: 0.5 }], this.character.origin));
     this.painter.freeMesh(mesh);
   }
