@@ -108,6 +108,9 @@ const moveSlider = (place, to) => tab.locator(place).evaluate((input, value) => 
 await made(() => moveSlider('#materialNumbers input >> nth=0', 0.5));
 lap('modulus moved');
 expect(/^1[34]\d kPa$/.test(await modulus()), `in the middle of the slider it has ${await modulus()}`);
+await tab.focus('#materialNumbers input >> nth=1');
+await made(() => tab.keyboard.press('ArrowRight'));
+expect(await tab.evaluate(() => document.querySelectorAll('#materialNumbers input')[1] === document.activeElement), 'a slider loses the focus when a key moves it');
 await made(() => moveSlider('#gaitNumbers input >> nth=0', 0.9));
 lap('step height moved');
 await tab.waitForFunction(() => studio.stage.character.distance > 0.05);

@@ -1,6 +1,6 @@
 /* The panel that shapes the character: its soft parts, their material, its gait. */
 import { GAIT_NUMBERS, MATERIAL_NUMBERS } from './studio_bundle.js';
-import { element } from './studio_page.js';
+import { element, refill } from './studio_page.js';
 import { slider } from './studio_slider.js';
 
 const PRESETS = ['fat', 'jelly', 'flesh', 'muscle', 'rubber', 'cotton', 'denim', 'silk', 'leather'];
@@ -17,7 +17,7 @@ export class ShapePanel {
   show(state, bundle, first) {
     Object.assign(this, { state, bundle, parts: bundle.parts, gait: bundle.gait });
     if (first) this.part = undefined;
-    if (first || !this.ranges) this.ranges = this.gait && Object.fromEntries(Object.entries(this.gait.numbers).map(([key, value]) => [key, value]));
+    if (first || !this.usual) this.usual = this.gait?.numbers; // sliders range about what the character came with
     element('budget').value = state.convert.budget ?? '';
     this.listParts();
     this.showMaterial();
@@ -70,7 +70,7 @@ export class ShapePanel {
     select.replaceChildren(new Option('as it is', ''), ...PRESETS.map((name) => new Option(name)));
     select.value = this.state.materials[key] ?? '';
     select.disabled = !chosen;
-    element('materialNumbers').replaceChildren(...chosen ? MATERIAL_NUMBERS.map((one) => slider(one, chosen.numbers[one.key], (value) => this.setNumber(one.key, value)).element) : []);
+    refill(element('materialNumbers'), chosen ? MATERIAL_NUMBERS.map((one) => slider(one, chosen.numbers[one.key], (value) => this.setNumber(one.key, value))) : []);
   }
   /** A preset replaces numbers that were set before. */
   chooseMaterial(name) {
@@ -90,9 +90,9 @@ export class ShapePanel {
   showGait() {
     const { gait } = this, known = gait ? GAIT_NUMBERS.filter(({ kinds }) => !kinds || kinds.includes(gait.kind)) : [];
     element('noGait').hidden = known.length > 0;
-    element('gaitNumbers').replaceChildren(...known.map((one) => {
-      const usual = this.ranges?.[one.key] || one.usual, range = { low: usual / 4, high: usual * 4, ...one };
-      return slider(range, gait.numbers[one.key], (value) => this.change({ ...this.state, gait: { ...this.state.gait, [one.key]: value } }, `gait ${one.key}`)).element;
+    refill(element('gaitNumbers'), known.map((one) => {
+      const usual = this.usual?.[one.key] || one.usual, range = { low: usual / 4, high: usual * 4, ...one };
+      return slider(range, gait.numbers[one.key], (value) => this.change({ ...this.state, gait: { ...this.state.gait, [one.key]: value } }, `gait ${one.key}`));
     }));
   }
 }

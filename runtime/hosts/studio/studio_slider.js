@@ -10,9 +10,9 @@ export function shortNumber(value, unit) {
   return `${Number(value.toPrecision(3))}${unit ? ` ${unit}` : ''}`;
 }
 
-/** `change(value)` is called when it is moved. A label with { element, set(value) }. */
+/** A label with a slider; `change(value)` is called when it was moved. */
 export function slider({ label, unit, low, high, linear }, value, change) {
-  const element = document.createElement('label'), text = document.createElement('span'), shown = document.createElement('span');
+  const control = document.createElement('label'), text = document.createElement('span'), shown = document.createElement('span');
   const input = Object.assign(document.createElement('input'), { type: 'range', min: 0, max: 1, step: 0.001 });
   const toValue = (at) => (linear ? low + at * (high - low) : low * (high / low) ** at);
   const toPlace = (number) => (linear ? (number - low) / (high - low) : Math.log(Math.max(number, low) / low) / Math.log(high / low));
@@ -20,16 +20,13 @@ export function slider({ label, unit, low, high, linear }, value, change) {
     shown.textContent = shortNumber(number, unit);
     input.setAttribute('aria-valuetext', shown.textContent);
   };
-  element.className = 'slider';
+  control.className = 'slider';
   shown.className = 'value';
   text.textContent = label;
-  element.append(text, shown, input);
-  const set = (number) => {
-    input.value = toPlace(number);
-    tell(number);
-  };
-  set(value);
+  control.append(text, shown, input);
+  input.value = toPlace(value);
+  tell(value);
   input.addEventListener('input', () => tell(toValue(Number(input.value))));
   input.addEventListener('change', () => change(Number(toValue(Number(input.value)).toPrecision(3))));
-  return { element, set };
+  return control;
 }
