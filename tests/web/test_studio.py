@@ -51,9 +51,10 @@ def main():
     os.makedirs(pictures, exist_ok=True)
     script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "studio_in_chromium.mjs")
     with tempfile.TemporaryDirectory() as folder:
+        unpacked = os.path.join(folder, "unpacked with spaces, ü")
         with zipfile.ZipFile(made[0]) as archive:
-            archive.extractall(os.path.join(folder, "studio with spaces, ü"))
-        studio = os.path.join(folder, "studio with spaces, ü")
+            archive.extractall(unpacked)
+        studio = os.path.join(unpacked, "sbfmt-studio")
         sources = os.path.join(folder, "sources")
         os.mkdir(sources)
         for name in ("pup/pup.glb", "koi/koi.glb", "lizard/lizard.obj", "lizard/lizard.mtl", "lizard/lizard.glb"):
