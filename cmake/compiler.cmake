@@ -65,6 +65,20 @@ function(sbfmt_program name)
   endif()
 endfunction()
 
+# sbfmt_worker_program(NAME CALL): the program NAME-worker, made of what NAME is made of, for a worker of a browser: its script defines the
+# function CALL. Files are in memory.
+function(sbfmt_worker_program name call)
+  if(EMSCRIPTEN)
+    get_target_property(libraries ${name} LINK_LIBRARIES)
+    add_executable(${name}-worker $<TARGET_OBJECTS:${name}>)
+    target_link_libraries(${name}-worker PRIVATE ${libraries})
+    target_link_options(${name}-worker PRIVATE -sMODULARIZE=1 -sEXPORT_NAME=${call} -sENVIRONMENT=worker -sWASM_ASYNC_COMPILATION=0 -sINVOKE_RUN=0
+      -sEXPORTED_RUNTIME_METHODS=FS,ENV,callMain -sFORCE_FILESYSTEM=1 -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sEXIT_RUNTIME=1
+      -sTOTAL_STACK=8MB -fexceptions)
+    set_target_properties(${name}-worker PROPERTIES LINKER_LANGUAGE C RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/worker)
+  endif()
+endfunction()
+
 # sbfmt_library(NAME ALIAS FOLDER...): a library of every .c file in the given folders. A folder is a
 # module here, so a new file joins its library by lying in the right place.
 function(sbfmt_library name alias)

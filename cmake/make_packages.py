@@ -7,6 +7,7 @@ Usage: make_packages.py --static DIR [--shared DIR] [--self-contained DIR] [--no
     tarball   sbfmt-VERSION-SYSTEM.tar.gz         relocatable: static libraries, headers, CMake package, pkg-config files, the program
     npm       sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (needs clang, lld, wasi-libc and npm)
     program   sbfmt-cli-VERSION.tgz               the program as WebAssembly for Node.js, from the tree of --node
+    studio    sbfmt-studio-VERSION.zip            the page where a mesh becomes a character, from the trees of --static and --node
     blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library; from the tree of self-contained libraries if
                                                   there is one: then it needs only the system's C library
     godot     sbfmt-godot-VERSION-SYSTEM.zip      addons/sbfmt for a Godot project (needs Godot 4.6)
@@ -27,6 +28,7 @@ import tarfile
 import tempfile
 import zipfile
 
+HERE = os.path.dirname(os.path.abspath(__file__))
 STAMP = (2026, 1, 1, 0, 0, 0)  # a fixed date: the same files give the same bytes
 STAMP_S = 1767225600
 
@@ -136,6 +138,16 @@ class Packages:
         shutil.copyfile(os.path.join(self.node, f"sbfmt-cli-{self.version}.tgz"), self.path("cli", ".tgz", native=False))
         return None
 
+    def studio(self):
+        if not self.node:
+            return "no tree for Node.js was named: ./run package studio makes one where Debian's emscripten is"
+        run("cmake", "--build", self.node, "--target", "sbfmt-workers")
+        with tempfile.TemporaryDirectory() as scratch:
+            run(sys.executable, "-B", os.path.join(HERE, "..", "runtime", "hosts", "studio", "make_studio.py"), "--web", os.path.join(self.static, "web"),
+                "--worker", self.node, "--program", os.path.join(self.static, "tools", "sbfmt"), "--out", os.path.join(scratch, "sbfmt-studio"))
+            write_zip(scratch, self.path("studio", ".zip", native=False))
+        return None
+
     def blender(self):
         tree = self.self_contained or self.static
         run("cmake", "--build", tree, "--target", "blender-addon")
@@ -152,7 +164,7 @@ class Packages:
         return None
 
 
-NAMES = ("debian", "tarball", "npm", "program", "blender", "godot")
+NAMES = ("debian", "tarball", "npm", "program", "studio", "blender", "godot")
 
 
 def write_sums(folder):

@@ -1,11 +1,11 @@
-/* Location of a program in WebAssembly under Node.js: the folder of the script that has loaded it. */
+/* Location of a program in WebAssembly: under Node.js the folder of the script that has loaded it. */
 #include <emscripten.h>
 #include <sys/stat.h>
 
 #include "base/module_path.h"
 
 EM_JS(int, copy_script_folder, (char *to, int size), {
-  const folder = require('fs').realpathSync(__dirname);
+  const folder = Module.programFolder();
   if (lengthBytesUTF8(folder) >= size) return 0;
   stringToUTF8(folder, to, size);
   return 1;

@@ -1,5 +1,6 @@
-/* Child process of a program in WebAssembly under Node.js: another program of the same kind, run by another
- * Node.js. There are no limits of processor time and address space; WebAssembly has at most 4 GiB. */
+/* Child process of a program in WebAssembly: another program of the same kind, run by another Node.js or, in
+ * a browser, by the same worker. There are no limits of processor time and address space; WebAssembly has at
+ * most 4 GiB. */
 #include <emscripten.h>
 
 #include "base/process.h"
@@ -7,33 +8,22 @@
 enum { CANNOT_RUN = -1 };
 
 /* Runs the program and keeps its result in Module.child until release_child. Returns an sbfi_process_end, or
- * CANNOT_RUN. */
+ * CANNOT_RUN. Module.runProgram is in tools/node/program_head.js, for a browser in
+ * runtime/hosts/studio/program_worker.js. */
 EM_JS(int, run_child, (const char *const *words, double wall_ms, double output_bytes), {
   const list = [];
   for (let at = words >> 2; HEAP32[at]; at++) list.push(UTF8ToString(HEAP32[at]));
-  const child = require('child_process').spawnSync(process.execPath, list, {
-    stdio : [ 'ignore', 'pipe', 'pipe' ],
-    timeout : wall_ms || undefined,
-    maxBuffer : output_bytes || Infinity,
-    killSignal : 'SIGKILL',
-    windowsHide : true
-  });
-  Module.child = child;
-  if (child.error && child.error.code == 'ETIMEDOUT') return 2;
-  if (child.error && child.error.code == 'ENOBUFS') return 4;
-  if (child.error) return -1;
-  return child.signal ? 1 : 0;
+  Module.child = Module.runProgram(list, wall_ms, output_bytes);
+  return Module.child.end;
 })
 
 EM_JS(int, child_status, (void), { return Module.child.status || 0; })
-EM_JS(int, child_signal, (void),
-    { return Module.child.signal ? require('os').constants.signals[Module.child.signal] || 1 : 0; })
-EM_JS(double, child_output_size, (void), { return Module.child.stdout ? Module.child.stdout.length : 0; })
-EM_JS(void, copy_child_output, (void *to), { HEAPU8.set(Module.child.stdout, to); })
+EM_JS(int, child_signal, (void), { return Module.child.signal || 0; })
+EM_JS(double, child_output_size, (void), { return Module.child.output.length; })
+EM_JS(void, copy_child_output, (void *to), { HEAPU8.set(Module.child.output, to); })
 /* The last `size` bytes of its standard error, or why it could not be run. */
 EM_JS(int, copy_child_words, (char *to, int size), {
-  const error = Module.child.error, said = Module.child.stderr;
-  const bytes = said && said.length ? said : Buffer.from(error ? error.message : "");
+  const bytes = Module.child.words;
   const last = bytes.subarray(Math.max(0, bytes.length - size));
   HEAPU8.set(last, to);
   return last.length;

@@ -64,6 +64,8 @@ def checks(arguments, folder):
     yield "npm package, in a fresh project", npm, [os.path.join(tests, "web", "test_package.py"), npm]
     cli = first(folder, "sbfmt-cli-*.tgz")
     yield "the program for Node.js, in a fresh project", cli, [os.path.join(tests, "web", "test_program.py"), cli]
+    studio = first(folder, "sbfmt-studio-*.zip")
+    yield "the studio, in a browser", studio, [os.path.join(tests, "web", "test_studio.py"), studio]
     addon = first(folder, "sbfmt-blender-*.zip")
     blender = os.path.join(tests, "blender", "run_in_blender.py")
     yield "Blender's add-on, in the system's Blender", addon, [blender, "--zip", addon, "test_addon_zip", "test_check_and_build"]

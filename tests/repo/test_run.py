@@ -39,12 +39,12 @@ class Calls(unittest.TestCase):
     def test_help(self):
         done = call("help")
         self.assertEqual(done.returncode, 0)
-        for command in ("demo", "test", "bench", "charts", "build", "fuzz", "coverage", "mutants", "abi", "docs", "format"):
+        for command in ("demo", "test", "bench", "charts", "build", "fuzz", "coverage", "mutants", "abi", "docs", "studio", "format"):
             self.assertIn(f"\n  {command} ", done.stdout)
         self.assertEqual(call().stdout, done.stdout)
 
     def test_wrong_calls(self):
-        for arguments in (["nonsense"], ["test", "--most"], ["fuzz", "long"], ["demo", "now"], ["abi", "now"], ["docs", "now"], ["package", "rpm"],
+        for arguments in (["nonsense"], ["test", "--most"], ["fuzz", "long"], ["demo", "now"], ["abi", "now"], ["docs", "now"], ["studio", "1", "2"], ["package", "rpm"],
                           ["package", "--check", "deb"], ["test", "--all", "--systems"]):
             done = call(*arguments)
             self.assertEqual(done.returncode, 2, arguments)

@@ -324,12 +324,12 @@ export function ball(rows = 16) {
   return { positions: new Float32Array(positions), normals: new Float32Array(positions), indices: new Uint32Array(indices) };
 }
 
-/** Bones as long octahedra: `bones` as Character.bones gives them, `lengths` in metres. */
-export function boneShapes(bones, lengths) {
+/** Bones as long octahedra: `bones` as Character.bones gives them, `lengths` in metres, `width` half as a share of the length. */
+export function boneShapes(bones, lengths, width = 0.09) {
   const positions = [], normals = [], indices = [];
   lengths.forEach((length, i) => {
     if (!(length > 0)) return;
-    const head = Array.from(bones.subarray(7 * i, 7 * i + 3)), turn = Array.from(bones.subarray(7 * i + 3, 7 * i + 7)), wide = length * 0.09;
+    const head = Array.from(bones.subarray(7 * i, 7 * i + 3)), turn = Array.from(bones.subarray(7 * i + 3, 7 * i + 7)), wide = length * width;
     const local = [[0, 0, 0], [wide, 0.15 * length, 0], [0, 0.15 * length, wide], [-wide, 0.15 * length, 0], [0, 0.15 * length, -wide], [0, length, 0]];
     const at = local.map((v) => vector.add(head, vector.turn(turn, v)));
     for (let side = 0; side < 4; side++)

@@ -58,9 +58,9 @@ export class Stage {
   clear() {
     this.world?.free();
     this.model?.free();
-    this.skins?.forEach((one) => this.painter.freeMesh(one.mesh));
+    for (const { skins } of this.world ? this.cast : []) skins.forEach((one) => this.painter.freeMesh(one.mesh));
     if (this.groundMesh) this.painter.freeMesh(this.groundMesh);
-    Object.assign(this, { balls: [], skins: [], world: undefined, model: undefined, groundMesh: undefined });
+    Object.assign(this, { balls: [], skins: [], others: [], world: undefined, model: undefined, groundMesh: undefined });
   }
 
   /** What the runtime has that is coarser than the file's levels. */
@@ -85,7 +85,7 @@ export class Stage {
     this.world = this.sbfmt.world({ ground });
     this.character = this.world.add(this.model, at);
     if (!ofFile) this.character.setDetailLevel(this.model.detailLevels.findIndex(({ kind }) => kind === level));
-    this.skins = this.asset.meshes.map((_, i) => this.dress(i));
+    this.skins = this.dress(this.character);
     this.rigidOf = new Map(this.asset.rigidBodies.map((body) => [body.bone, body.index]));
     this.mass = this.asset.rigidBodies.reduce((sum, body) => sum + this.character.rigidState(body.index).mass, 0);
     this.time = 0;
@@ -97,14 +97,22 @@ export class Stage {
     return mesh;
   }
 
-  dress(number) {
-    const skin = this.character.skin(number, this.choices.renderLevel);
-    const parts = skin.groups.map(({ start, count, material }) => {
-      const look = this.asset.materials[material];
-      return { start, count, material, color: look ? [...look.baseColor] : [0.37, 0.65, 0.47, 1], roughness: look?.roughness ?? 0.6,
-        metallic: look?.metallic ?? 0, image: this.images?.[look?.baseColorTexture] };
+  /** All characters of the world, the one that is looked at first, with what is drawn of them. */
+  get cast() {
+    return [{ character: this.character, skins: this.skins }, ...this.others];
+  }
+
+  /** What is drawn of each mesh of a character. */
+  dress(character) {
+    return this.asset.meshes.map((_, i) => {
+      const skin = character.skin(i, this.choices.renderLevel);
+      const parts = skin.groups.map(({ start, count, material }) => {
+        const look = this.asset.materials[material];
+        return { start, count, material, color: look ? [...look.baseColor] : [0.37, 0.65, 0.47, 1], roughness: look?.roughness ?? 0.6,
+          metallic: look?.metallic ?? 0, image: this.images?.[look?.baseColorTexture] };
+      });
+      return { mesh: this.painter.mesh(skin.indices, skin.uvs), parts };
     });
-    return { mesh: this.painter.mesh(skin.indices, skin.uvs), parts };
   }
 
   /** `beside`: the bytes of a texture that is not in the file. */
@@ -120,7 +128,7 @@ export class Stage {
     }));
     if (asset !== this.asset) return; // another file was opened meanwhile
     this.images = images.map((bitmap) => bitmap && this.painter.image(bitmap));
-    for (const { parts } of this.skins)
+    for (const { parts } of this.cast.flatMap(({ skins }) => skins))
       for (const part of parts) part.image = this.images[this.asset.materials[part.material]?.baseColorTexture];
   }
 
