@@ -68,7 +68,7 @@ class SoftBody(fixtures.SceneTest):
             self.assertAlmostEqual(0.5 + heights[0] - heights[1], wanted, delta=0.02 * wanted)
             fixtures.fresh_scene()
 
-    def test_bending_is_a_share_of_the_pull(self):
+    def test_bending_is_a_fraction_of_pull(self):
         """Three vertices in a line: the lower edge and the spring past it bear the lowest."""
         for bend, pull in ((5, 0.5), (2, 0.8)):
             heights = settle(self.line(-1, 3, pull=pull, push=pull, bend=bend))
@@ -105,16 +105,16 @@ class SoftBody(fixtures.SceneTest):
         wanted = GRAVITY / blender_units.friction(50)
         self.assertAlmostEqual(way_of_a_frame / blender_units.TIME_UNIT_S, wanted, delta=0.02 * wanted)
 
-    def test_friction_of_the_goal_holds_back_what_it_does_not_draw(self):
+    def test_goal_friction_damps_points_without_a_goal(self):
         made = self.line(-1, use_edges=False, friction=0, goal_friction=50)
         way_of_a_frame = settle(made, last=40)[1] - settle(made, 41, 41)[1]
         wanted = GRAVITY / blender_units.friction(50)
         self.assertAlmostEqual(way_of_a_frame / blender_units.TIME_UNIT_S, wanted, delta=0.02 * wanted)
 
-    def test_a_whole_goal_holds_fast(self):
+    def test_a_goal_of_weight_one_pins(self):
         self.assertEqual(settle(self.line(-1, use_edges=False, goal_default=1, goal_spring=0.1), last=60)[0], 0)
 
-    def test_a_goal_gives_by_weight_over_stiffness(self):
+    def test_a_goal_yields_by_weight_over_stiffness(self):
         for spring, default in ((0.9, 0.7), (0.5, 0.9)):
             made = square(1, use_edges=False, goal_spring=spring, goal_default=default)
             wanted = GRAVITY / blender_units.goal_stiffness(1.0, made.soft_body)
@@ -136,7 +136,7 @@ class SoftBody(fixtures.SceneTest):
         self.assertAlmostEqual(speed, (2 * 4 * GRAVITY / (density * 0.25))**0.5, delta=0.02 * speed)
 
 
-    def test_balls_of_self_collision_are_as_large_as_they_say(self):
+    def test_self_collision_balls_have_the_stated_size(self):
         for apart in (0.19, 0.21):
             made = fixtures.mesh_object("m", [(0, 0, 0), (apart, 0, 0), (0, 3, 0), (apart, 3, 0)], [], [(0, 2), (1, 3)])
             made.modifiers.new("s", "SOFT_BODY")
@@ -187,10 +187,10 @@ class Fields(fixtures.SceneTest):
         for density, flow in ((8, 50), (0.8, 2)):
             self.slow("WIND", density, GRAVITY / (flow * blender_units.drag_on_cloth(density)), flow=flow)
 
-    def test_drag_goes_by_the_speed_where_it_is_called_quadratic(self):
+    def test_drag_called_quadratic_is_linear_in_speed(self):
         self.slow("DRAG", 0.8, GRAVITY / (2 * blender_units.drag_on_cloth(0.8)), linear_drag=0, quadratic_drag=2)
 
-    def test_drag_goes_by_the_square_of_the_speed_where_it_is_called_linear(self):
+    def test_drag_called_linear_is_quadratic_in_speed(self):
         """Of which the square is in frames: the force of a field of that strength, times the way of a frame in seconds, squared."""
         for rate in (24, 30):
             bpy.context.scene.render.fps = rate

@@ -7,7 +7,7 @@ import fixtures
 
 
 class Shared(fixtures.RoundTripTest):
-    def test_every_file_comes_back_equal(self):
+    def test_every_file_round_trips(self):
         paths = sorted(glob.glob(os.path.join(fixtures.BUNDLES, "*.sbf")))
         self.assertGreater(len(paths), 30)
         for path in paths:

@@ -109,7 +109,7 @@ START_TEST(sections_of_a_skin)
 }
 END_TEST
 
-START_TEST(it_grows)
+START_TEST(progress_increases)
 {
   sbf_asset *asset = ball();
   listener l = {.left = -1};
@@ -130,7 +130,7 @@ static Suite *suite(void) {
   tcase_add_test(c, tetrahedra_and_their_levels);
   tcase_add_test(c, render_levels);
   tcase_add_test(c, sections_of_a_skin);
-  tcase_add_test(c, it_grows);
+  tcase_add_test(c, progress_increases);
   suite_add_tcase(s, c);
   return s;
 }

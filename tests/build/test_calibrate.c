@@ -304,7 +304,7 @@ static void check_errors(const sbf_level *level, uint32_t loads) {
   }
 }
 
-START_TEST(a_build_calibrates_what_is_coarse)
+START_TEST(coarse_levels_are_calibrated)
 {
   sbf_build_report report;
   add_beam(true);
@@ -326,7 +326,7 @@ START_TEST(a_build_calibrates_what_is_coarse)
 }
 END_TEST
 
-START_TEST(the_coarsest_that_is_good_enough_is_chosen)
+START_TEST(the_coarsest_sufficient_level_is_chosen)
 {
   sbf_build_report report;
   uint32_t counts[2];
@@ -400,7 +400,7 @@ END_TEST
 /* A blade of eight corners, thinner than an element: as its swing has it, its lattice would have to be
  * several times softer. So it is made where there is stiffness to spare, and not where it has to bear itself.
  */
-START_TEST(what_stands_is_not_made_softer_than_its_weight_allows)
+START_TEST(standing_bodies_keep_the_stiffness_that_their_weight_needs)
 {
   sbf_polygon_mesh blade = shape_cube(asset, 1, 1, (sbf_vec3){0, 0, 0});
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)blade.positions.at;
@@ -537,7 +537,7 @@ START_TEST(a_crumb_does_not_set_the_factor)
 END_TEST
 
 /* No element's modulus is more than doubled, however stiff the same part of the reference. */
-START_TEST(no_element_takes_more_than_twice_its_modulus)
+START_TEST(moduli_are_at_most_doubled)
 {
   sbf_soft_body *body = add_beam(true);
   sbf_level fine, level;
@@ -559,7 +559,7 @@ START_TEST(no_element_takes_more_than_twice_its_modulus)
 END_TEST
 
 /* Springs that are made stiffer or softer are damped as much more or less. */
-START_TEST(damping_of_springs_goes_with_their_stiffness)
+START_TEST(damping_of_springs_scales_with_their_stiffness)
 {
   static float dampings[1000];
   sbf_soft_body *body = add_beam(true);
@@ -646,12 +646,12 @@ static Suite *suite(void) {
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_loop_test(c, a_beam_of_240_bends_as_one_of_15360, 0, HARNESS_FEW(1, 0));
   tcase_add_loop_test(c, an_arm_of_the_armadillo, 0, HARNESS_FEW(1, 0));
-  tcase_add_test(c, a_build_calibrates_what_is_coarse);
-  tcase_add_test(c, the_coarsest_that_is_good_enough_is_chosen);
+  tcase_add_test(c, coarse_levels_are_calibrated);
+  tcase_add_test(c, the_coarsest_sufficient_level_is_chosen);
   tcase_add_test(c, levels_go_from_lattices_to_jiggle);
   tcase_add_test(c, a_free_body_is_calibrated_too);
   tcase_add_test(c, a_surface_of_few_points_is_enough);
-  tcase_add_test(c, what_stands_is_not_made_softer_than_its_weight_allows);
+  tcase_add_test(c, standing_bodies_keep_the_stiffness_that_their_weight_needs);
   tcase_add_test(c, it_can_be_cancelled);
   suite_add_tcase(s, c);
   TCase *bounds = tcase_create("bounds");
@@ -659,8 +659,8 @@ static Suite *suite(void) {
   tcase_add_loop_test(bounds, the_error_is_the_greatest_over_all_loads, 0, HARNESS_FEW(3, 1));
   tcase_add_test(bounds, one_factor_for_all_has_bounds);
   tcase_add_test(bounds, a_crumb_does_not_set_the_factor);
-  tcase_add_test(bounds, no_element_takes_more_than_twice_its_modulus);
-  tcase_add_test(bounds, damping_of_springs_goes_with_their_stiffness);
+  tcase_add_test(bounds, moduli_are_at_most_doubled);
+  tcase_add_test(bounds, damping_of_springs_scales_with_their_stiffness);
   suite_add_tcase(s, bounds);
   return s;
 }

@@ -69,7 +69,7 @@ static void change(sbf_soft_body *body, int what) {
   }
 }
 
-START_TEST(what_differs_is_not_equal)
+START_TEST(different_bodies_are_not_equal)
 {
   sbfi_d3 offset;
   add_cube("a", 0.2f, (sbf_vec3){0, 1, 0});
@@ -79,7 +79,7 @@ START_TEST(what_differs_is_not_equal)
 END_TEST
 
 /* Bones and pins hold at a position of their own. */
-START_TEST(what_is_held_equals_nothing)
+START_TEST(pinned_bodies_equal_no_other)
 {
   sbfi_d3 offset;
   change(add_cube("a", 0.2f, (sbf_vec3){0, 1, 0}), _i);
@@ -140,8 +140,8 @@ static Suite *suite(void) {
   TCase *c = tcase_create("equal bodies");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_copy_elsewhere_is_found);
-  tcase_add_loop_test(c, what_differs_is_not_equal, 0, CHANGES);
-  tcase_add_loop_test(c, what_is_held_equals_nothing, BONE, CHANGES);
+  tcase_add_loop_test(c, different_bodies_are_not_equal, 0, CHANGES);
+  tcase_add_loop_test(c, pinned_bodies_equal_no_other, BONE, CHANGES);
   tcase_add_test(c, copies_share_one_calibration);
   suite_add_tcase(s, c);
   return s;

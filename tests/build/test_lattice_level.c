@@ -127,7 +127,7 @@ START_TEST(a_cube_of_tetrahedra)
 }
 END_TEST
 
-START_TEST(a_section_is_held_in_its_inner_half)
+START_TEST(a_section_is_pinned_in_its_inner_half)
 {
   add_cube(2, true);
   sbf_asset *built = build((sbf_build_options){.cell_m = 0.05}, NULL);
@@ -145,7 +145,7 @@ START_TEST(a_section_is_held_in_its_inner_half)
 }
 END_TEST
 
-START_TEST(pins_on_the_surface_are_taken_over)
+START_TEST(pins_on_the_surface_are_transferred)
 {
   sbf_soft_body *body = add_cube(4, false);
   uint32_t points[40], count = 0;
@@ -369,7 +369,7 @@ static bool stop_at(void *user, const char *pass, double done) {
   return --*left >= 0;
 }
 
-START_TEST(cancelled_or_without_memory_it_leaves_nothing)
+START_TEST(cancelling_and_failed_allocations_free_everything)
 {
   add_cube(1, true);
   sbf_build_options options = {
@@ -400,14 +400,14 @@ int main(void) {
   TCase *c = tcase_create("lattice_level");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_cube_of_tetrahedra);
-  tcase_add_test(c, a_section_is_held_in_its_inner_half);
-  tcase_add_test(c, pins_on_the_surface_are_taken_over);
+  tcase_add_test(c, a_section_is_pinned_in_its_inner_half);
+  tcase_add_test(c, pins_on_the_surface_are_transferred);
   tcase_add_test(c, a_stray_vertex);
   tcase_add_test(c, a_lattice_that_misses_a_tip_is_refined);
   tcase_add_test(c, sheets_become_cloth);
   tcase_add_test(c, faults_are_reported);
   tcase_add_loop_test(c, real_surfaces, 0, (int)(sizeof real / sizeof *real));
-  tcase_add_test(c, cancelled_or_without_memory_it_leaves_nothing);
+  tcase_add_test(c, cancelling_and_failed_allocations_free_everything);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

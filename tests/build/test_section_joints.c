@@ -42,7 +42,7 @@ START_TEST(a_joint_at_each_head)
 }
 END_TEST
 
-START_TEST(joints_of_the_source_stay)
+START_TEST(joints_of_the_source_are_kept)
 {
   /* Bone 2 has a body and a joint already. */
   sbf_asset *asset = skinned_limb_make(&limb);
@@ -76,7 +76,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("section_joints");
   TCase *c = tcase_create("section_joints");
   tcase_add_test(c, a_joint_at_each_head);
-  tcase_add_test(c, joints_of_the_source_stay);
+  tcase_add_test(c, joints_of_the_source_are_kept);
   suite_add_tcase(s, c);
   return s;
 }

@@ -64,7 +64,7 @@ START_TEST(a_sole_is_its_foots_alone)
 }
 END_TEST
 
-START_TEST(what_stands_on_no_leg_is_left_alone)
+START_TEST(sections_without_legs_are_unchanged)
 {
   uint32_t marked;
   ck_assert_float_lt(min_fraction(false, 0.1f, &marked), 0.99f);
@@ -76,7 +76,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("section_sole");
   TCase *c = tcase_create("section_sole");
   tcase_add_test(c, a_sole_is_its_foots_alone);
-  tcase_add_test(c, what_stands_on_no_leg_is_left_alone);
+  tcase_add_test(c, sections_without_legs_are_unchanged);
   suite_add_tcase(s, c);
   return s;
 }

@@ -160,7 +160,7 @@ static double sag(const bar *b, int axis) {
 }
 
 /* What a bar does depends on rho g L / E and nothing else: whatever its size, stuff, and kind of level. */
-START_TEST(sag_goes_with_weight_over_modulus)
+START_TEST(sag_scales_with_weight_over_modulus)
 {
   static const sbf_build_interior interiors[] = {
       SBF_BUILD_INTERIOR_CENTROID, SBF_BUILD_INTERIOR_LATTICE, SBF_BUILD_INTERIOR_TETRAHEDRA};
@@ -214,7 +214,7 @@ int main(void) {
   tcase_add_test(c, a_body_centred_grid_is_isotropic);
   tcase_add_test(c, energy_is_kept_whatever_the_directions);
   tcase_add_test(c, every_allocation_may_fail);
-  tcase_add_test(c, sag_goes_with_weight_over_modulus);
+  tcase_add_test(c, sag_scales_with_weight_over_modulus);
   tcase_add_test(c, refining_changes_next_to_nothing);
   suite_add_tcase(s, c);
   return harness_run(s);

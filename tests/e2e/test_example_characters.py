@@ -167,7 +167,7 @@ class Characters(ProgramTest):
             self.assertGreater(max(heights[i - 20:i + 1]), 1.15 * heights[0])
             self.assertGreater(max(ups[i - 20:i]), 0.145)
 
-    def test_they_walk_within_the_figures_on_flat_ground(self):
+    def test_walks_on_flat_ground_stay_within_the_figures(self):
         for name, (_, knee, slip) in WALKERS.items():
             path = self.bundle(name)
             leg = self.json_of("run", path, "--seconds", "0")["leg_length"]

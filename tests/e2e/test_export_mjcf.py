@@ -146,7 +146,7 @@ class Mjcf(ProgramTest):
             self.assertLess(reported["falls"], 1.2, name)
 
     @play_files.needs_node
-    def test_mujoco_lets_touch_what_may(self):
+    def test_mujoco_allows_the_same_contacts(self):
         """Two soft boxes on a hull touch, and it the lower one; what lies in one of them does not, nor what layers part."""
         with open(self.path("boxes.obj"), "w", encoding="ascii") as file:
             for i, name in enumerate(("low", "high")):
@@ -168,7 +168,7 @@ class Mjcf(ProgramTest):
             self.assertEqual((reported["warnings"], reported["finite"], reported["pairs"]), (0, True, want))
             self.assertLess(reported["fastest"], 0.9)  # they begin 0.02 m apart, which their radii are in sum
 
-    def test_hulls_that_lie_in_each_other(self):
+    def test_overlapping_hulls(self):
         """The first and second of three do at rest, the second and third only touch; the fourth is beside all, on another layer."""
         places = [(0, "a", ""), (0.15, "b", ""), (0.35, "c", ""), (0.6, "d", ' layer="2" mask="2"')]
         bodies = "".join(hull(name, (x, 0, 0), (x + 0.2, 0.2, 0.2)).replace('motion="kinematic"', f'motion="dynamic" mass="1"{more}')

@@ -46,7 +46,7 @@ class Gait(ProgramTest):
         self.assertGreater(fast, slow)
         self.assertGreater(fastest, fast)
 
-    def test_many_legs_driven_faster_go_no_slower(self):
+    def test_many_legs_driven_faster_are_not_slower(self):
         for name in ("spider", "caterpillar"):
             with self.subTest(name):
                 self.faster_is_farther(ROOT, "examples", name, name + ".glb")

@@ -47,7 +47,7 @@ class ManyInputs(ProgramTest):
             report = self.json_of("validate", faulty, good, "--threads", threads, status=1)
             self.assertEqual((report["valid"], [one["valid"] for one in report["files"]]), (False, [False, True]))
 
-    def test_one_output_takes_one_input(self):
+    def test_one_output_needs_one_input(self):
         good = write_bytes(self.path("cube.obj"), CUBE.encode())
         other = write_bytes(self.path("other.obj"), CUBE.encode())
         printed = self.fails(2, "convert", good, other, "--no-build", "-o", self.path("out.sbf"))
@@ -65,7 +65,7 @@ class ManyInputs(ProgramTest):
             for name in made:
                 os.remove(os.path.join(out, name))
 
-    def test_unchanged_inputs_are_left_out(self):
+    def test_unchanged_inputs_are_skipped(self):
         out = self.path("out")
         inputs = [write_bytes(self.path(name + ".obj"), CUBE.encode()) for name in ("a", "b", "c")]
 

@@ -80,7 +80,7 @@ class Played(ProgramTest):
             self.assertTrue(report["valid"], clip)
             self.assertGreater(report["volume_ratio_least"], 0.6, clip)
 
-    def test_names_numbers_and_none(self):
+    def test_a_missing_clip_is_refused(self):
         path = convert_once(self.class_folder.name, "lizard.sbf", LIZARD)
         self.assertIn("no clip 'Walk': the file has none", self.fails(2, "run", path, "--clip", "Walk"))
 

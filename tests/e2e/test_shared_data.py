@@ -130,7 +130,7 @@ class EveryFile(ProgramTest):
         self.assertGreater(len(there), 50)
         self.assertEqual({p for p in there if not p.endswith(".ele")} - set(self.readme), set())
 
-    def test_files_at_fault_end_in_their_error(self):
+    def test_broken_files_give_their_error(self):
         for path, (code, word) in ERRORS.items():
             for options in ((), (*SOURCE_PARTS,)):
                 with self.subTest(path, options=options):

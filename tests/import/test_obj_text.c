@@ -229,7 +229,7 @@ START_TEST(a_nul_is_refused_with_its_line)
 }
 END_TEST
 
-START_TEST(messages_hold_no_bytes_of_the_file_that_are_no_text)
+START_TEST(messages_contain_text_bytes_only)
 {
   sbfi_obj_text text;
   sbf_diagnostic error = {0};
@@ -319,7 +319,7 @@ static Suite *obj_text_suite(void) {
   tcase_add_test(tests, a_face_has_a_bounded_number_of_corners);
   tcase_add_test(tests, binary_is_no_obj);
   tcase_add_test(tests, a_nul_is_refused_with_its_line);
-  tcase_add_test(tests, messages_hold_no_bytes_of_the_file_that_are_no_text);
+  tcase_add_test(tests, messages_contain_text_bytes_only);
   tcase_add_test(tests, a_mark_of_utf8_is_passed_over);
   tcase_add_test(tests, cut_off_at_every_byte);
   tcase_add_test(tests, every_allocation_may_fail);

@@ -6,7 +6,7 @@
 #include "conversions.h"
 #include "sbfmt/build.h"
 
-START_TEST(names_tell_parts)
+START_TEST(names_identify_parts)
 {
   static const struct {
     const char *name;
@@ -159,7 +159,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("propose_limits");
   TCase *c = tcase_create("propose_limits");
-  tcase_add_test(c, names_tell_parts);
+  tcase_add_test(c, names_identify_parts);
   tcase_add_test(c, a_human_rig);
   tcase_add_test(c, a_fox);
   tcase_add_test(c, the_example_lizard);

@@ -55,14 +55,14 @@ START_TEST(a_bend_of_each_joint)
 }
 END_TEST
 
-START_TEST(our_own_character)
+START_TEST(the_example_character)
 { check("calf.glb", harness_source("examples/calf/calf.glb"), 20, 2000); }
 END_TEST
 
 static Suite *suite(void) {
   Suite *s = suite_create("skin_bend");
   TCase *c = tcase_create("characters");
-  tcase_add_test(c, our_own_character);
+  tcase_add_test(c, the_example_character);
   tcase_add_loop_test(c, a_bend_of_each_joint, 0, CHARACTER_COUNT);
   suite_add_tcase(s, c);
   return s;

@@ -70,7 +70,7 @@ START_TEST(other_documents_have_no_avatar)
 }
 END_TEST
 
-START_TEST(memory_that_runs_out_is_reported)
+START_TEST(failed_allocations_are_reported)
 {
   const char *const texts[] = {avatar, old_avatar};
   for (int i = 0; i < 2; i++) {
@@ -98,7 +98,7 @@ int main(void) {
   TCase *all = tcase_create("all");
   tcase_add_test(all, nodes_of_springs_are_bones);
   tcase_add_test(all, other_documents_have_no_avatar);
-  tcase_add_test(all, memory_that_runs_out_is_reported);
+  tcase_add_test(all, failed_allocations_are_reported);
   suite_add_tcase(suite, all);
   return harness_run(suite);
 }

@@ -52,7 +52,7 @@ START_TEST(a_bar_bends_in_few_steps)
 }
 END_TEST
 
-START_TEST(what_was_found_is_a_start)
+START_TEST(a_solution_is_a_start_for_the_next)
 {
   static double forces[3 * POINTS], moved[3 * POINTS];
   sbfi_linear_statics linear;
@@ -113,7 +113,7 @@ START_TEST(a_small_bar_bends_at_once)
 END_TEST
 
 /* Nothing resists its motion as a whole: no factorisation, but an answer to balanced forces. */
-START_TEST(a_small_bar_that_nothing_holds)
+START_TEST(a_small_unpinned_bar)
 {
   static double forces[3 * FEW], moved[3 * FEW];
   lattice_box small = make_small_bar();
@@ -181,10 +181,10 @@ int main(void) {
   TCase *c = tcase_create("linear_statics");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_bar_bends_in_few_steps);
-  tcase_add_test(c, what_was_found_is_a_start);
+  tcase_add_test(c, a_solution_is_a_start_for_the_next);
   tcase_add_test(c, half_the_modulus_gives_twice_as_much);
   tcase_add_test(c, a_small_bar_bends_at_once);
-  tcase_add_test(c, a_small_bar_that_nothing_holds);
+  tcase_add_test(c, a_small_unpinned_bar);
   tcase_add_test(c, a_small_bar_of_twice_the_modulus);
   tcase_add_test(c, a_point_on_one_spring);
   suite_add_tcase(s, c);

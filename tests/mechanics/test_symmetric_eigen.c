@@ -22,7 +22,7 @@ START_TEST(known_matrix)
 }
 END_TEST
 
-START_TEST(large_matrices_come_apart)
+START_TEST(large_matrices_are_decomposed)
 {
   enum { N = 30 };
   double matrix[N * N], kept[N * N], vectors[N * N];
@@ -54,7 +54,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("symmetric_eigen");
   TCase *c = tcase_create("symmetric_eigen");
   tcase_add_test(c, known_matrix);
-  tcase_add_test(c, large_matrices_come_apart);
+  tcase_add_test(c, large_matrices_are_decomposed);
   tcase_add_test(c, nothing_to_do);
   suite_add_tcase(s, c);
   return s;

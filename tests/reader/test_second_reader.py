@@ -99,7 +99,7 @@ class Samples(Comparison):
                 refused += 1
         self.assertGreaterEqual(refused, 40)
 
-    def test_what_a_reader_has_to_take(self):
+    def test_required_input_is_accepted(self):
         texts = {
             "space and signs": '<sbf  version="1.0"\n><environment\r\n wind=" +1 \t-.5\n2.e0 " control_tick="00.5"/></sbf>',
             "comments and CDATA": '<sbf version="1.0"><soft_body id="b"><interior>1<!-- c --> 2 <![CDATA[3]]> 4 5 6<?p?>7'

@@ -31,7 +31,7 @@ static const sbri_body *body_of(const scene *s) {
   return &s->model->bodies[0];
 }
 
-START_TEST(all_that_polygons_use_is_sampled)
+START_TEST(all_points_of_polygons_are_sampled)
 {
   scene s = carried_box(4, SBF_PRESSURE_MODE_NONE);
   sbf_soft_body *body = scene_body(&s, 0);
@@ -128,7 +128,7 @@ static void solve(const sbri_island_tick *tick, const sbri_body *body, const sbr
     sbri_soft_contacts_solve(tick, body, tick->velocities, rule);
 }
 
-START_TEST(a_push_is_a_force_at_that_place)
+START_TEST(a_contact_impulse_acts_at_its_sample)
 {
   scene s = carried_box(2, SBF_PRESSURE_MODE_NONE);
   scene_body(&s, 0)->attributes.friction = 0.2f;
@@ -238,7 +238,7 @@ START_TEST(a_surface_beyond_its_lattice_stays_above_the_ground)
 END_TEST
 
 /* Springs between the corners of a box within carry the surface: position-based steps too. */
-START_TEST(position_based_steps_know_samples)
+START_TEST(position_based_steps_apply_samples)
 {
   scene s = carried_box(2, SBF_PRESSURE_MODE_NONE);
   sbf_vec3 positions[8];
@@ -290,12 +290,12 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("contact samples");
   TCase *c = tcase_create("contact samples");
-  tcase_add_test(c, all_that_polygons_use_is_sampled);
+  tcase_add_test(c, all_points_of_polygons_are_sampled);
   tcase_add_test(c, faces_larger_than_the_elements_are_supported_by_points_of_the_level);
   tcase_add_test(c, points_of_a_spring_level_need_no_samples);
-  tcase_add_loop_test(c, a_push_is_a_force_at_that_place, 0, 2);
+  tcase_add_loop_test(c, a_contact_impulse_acts_at_its_sample, 0, 2);
   tcase_add_loop_test(c, a_surface_beyond_its_lattice_stays_above_the_ground, 0, 6);
-  tcase_add_test(c, position_based_steps_know_samples);
+  tcase_add_test(c, position_based_steps_apply_samples);
   suite_add_tcase(s, c);
   return s;
 }

@@ -69,7 +69,7 @@ END_TEST
 
 /* Dropped from 10 cm: within five seconds it lies, as light as a thousandth of the cube or as heavy as that.
  */
-START_TEST(what_is_dropped_comes_to_rest)
+START_TEST(dropped_bodies_come_to_rest)
 {
   const double masses[6] = {0.027, 0.1, 0.5, 1, 5, 27};
   double mass = masses[_i / 2];
@@ -113,7 +113,7 @@ START_TEST(weight_presses_as_it_should)
 END_TEST
 
 /* A light crate on the host's floor bears the cube, though it gave way if it were free. */
-START_TEST(what_a_floor_holds_bears)
+START_TEST(bodies_on_a_floor_carry_others)
 {
   scene s = flesh_begin();
   add_attached(&s, 0, CUBE, 0, 50000);
@@ -135,7 +135,7 @@ START_TEST(what_a_floor_holds_bears)
 END_TEST
 
 /* A plank lies over two cubes, more on one than on the other; as one collider and as two. */
-START_TEST(several_bear_it_together)
+START_TEST(several_bodies_carry_it_together)
 {
   const sbf_vec3 arms[HOST_BODY_PARTS] = {{-0.3f, 0, 0}, {0.3f, 0, 0}};
   scene s = flesh_begin();
@@ -211,10 +211,10 @@ int main(void) {
   Suite *suite = suite_create("external_body");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, momentum_is_kept, 0, 8);
-  tcase_add_loop_test(tests, what_is_dropped_comes_to_rest, 0, HARNESS_FEW(12, 2));
+  tcase_add_loop_test(tests, dropped_bodies_come_to_rest, 0, HARNESS_FEW(12, 2));
   tcase_add_loop_test(tests, weight_presses_as_it_should, 0, HARNESS_FEW(2, 1));
-  tcase_add_test(tests, what_a_floor_holds_bears);
-  tcase_add_loop_test(tests, several_bear_it_together, 0, 2);
+  tcase_add_test(tests, bodies_on_a_floor_carry_others);
+  tcase_add_loop_test(tests, several_bodies_carry_it_together, 0, 2);
   tcase_add_test(tests, without_new_commands_it_continues);
   tcase_add_test(tests, bad_ones_are_refused);
   suite_add_tcase(suite, tests);

@@ -101,7 +101,7 @@ static const crossing positions[] = {
     {22, 0.01f, 0.002f, 0.07f, 1.2f},
 };
 
-START_TEST(thin_limbs_that_cross_come_apart)
+START_TEST(crossed_thin_limbs_separate)
 {
   const crossing *at = &positions[_i];
   scene s = begin_capsule(at->rings, at->radius);
@@ -176,7 +176,7 @@ static uint32_t places_inside(const scene *s, sbf_vec3 size) {
 }
 
 /* Put there, as a soft body that is pushed over a rigid one: of one character, whose parts they are. */
-START_TEST(rigid_things_come_out_of_soft_bodies)
+START_TEST(rigid_bodies_leave_soft_bodies)
 {
   const pierced *r = &rods[_i];
   scene s = begin_capsule(r->rings, r->radius);
@@ -199,8 +199,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_inside");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, thin_limbs_that_cross_come_apart, 0, sizeof positions / sizeof *positions);
-  tcase_add_loop_test(tests, rigid_things_come_out_of_soft_bodies, 0, sizeof rods / sizeof *rods);
+  tcase_add_loop_test(tests, crossed_thin_limbs_separate, 0, sizeof positions / sizeof *positions);
+  tcase_add_loop_test(tests, rigid_bodies_leave_soft_bodies, 0, sizeof rods / sizeof *rods);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

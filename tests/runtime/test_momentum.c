@@ -236,7 +236,7 @@ static float hit(scene *s, const kind *is) {
   return times;
 }
 
-START_TEST(what_points_gain_boxes_lose)
+START_TEST(points_and_boxes_exchange_equal_momentum)
 {
   const kind *is = &kinds[_i];
   scene s = dumbbell(is, SBR_INSTRUCTIONS_AUTOMATIC);
@@ -261,7 +261,7 @@ START_TEST(what_points_gain_boxes_lose)
 }
 END_TEST
 
-START_TEST(every_width_gives_the_same_bits)
+START_TEST(every_lane_width_gives_the_same_bits)
 {
   uint64_t hash = 0;
   for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++) {
@@ -281,8 +281,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("momentum");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, what_points_gain_boxes_lose, 0, sizeof kinds / sizeof *kinds);
-  tcase_add_loop_test(tests, every_width_gives_the_same_bits, 0, sizeof kinds / sizeof *kinds);
+  tcase_add_loop_test(tests, points_and_boxes_exchange_equal_momentum, 0, sizeof kinds / sizeof *kinds);
+  tcase_add_loop_test(tests, every_lane_width_gives_the_same_bits, 0, sizeof kinds / sizeof *kinds);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -59,7 +59,7 @@ static uint64_t record(tape *t) {
   return hash;
 }
 
-START_TEST(what_is_played_ends_in_the_same_state)
+START_TEST(replays_end_in_the_same_state)
 {
   static tape t, again;
   uint64_t hash = record(&t);
@@ -161,7 +161,7 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("record");
   TCase *c = tcase_create("record");
-  tcase_add_loop_test(c, what_is_played_ends_in_the_same_state, 0, 2);
+  tcase_add_loop_test(c, replays_end_in_the_same_state, 0, 2);
   tcase_add_test(c, another_world_is_reported);
   tcase_add_loop_test(c, damaged_recordings_do_no_harm, 0, 2);
   tcase_add_test(c, characters_created_meanwhile_are_reported);

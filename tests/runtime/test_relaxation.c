@@ -118,7 +118,7 @@ static const char *scrap =
     "g Scrap_1\nv -1 0.2 0\nv 0 0.5 0\nv 0 0.5 1\nv -1 -0.1 1\nv 1 0.4 0\nv 1 0.3 1\nv 0.5 0.9 2\n"
     "f 1 2 3 4\nf 2 5 6 3\nf 3 6 7\n";
 
-START_TEST(a_scrap_of_our_own)
+START_TEST(a_small_mesh)
 {
   ck_assert_float_le(compare(scrap, 0.001f, 0.3f, true), tolerance_m);
   ck_assert_float_le(compare(scrap, 0.01f, 0.5f, false), tolerance_m);
@@ -165,7 +165,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("relaxation");
   tcase_add_test(c, the_reference_lizard_on_the_ground);
   tcase_add_test(c, the_reference_lizard_in_the_air);
-  tcase_add_test(c, a_scrap_of_our_own);
+  tcase_add_test(c, a_small_mesh);
   tcase_add_test(c, the_reference_moves_at_all);
   tcase_add_test(c, held_points_drag_the_body_along);
   suite_add_tcase(s, c);

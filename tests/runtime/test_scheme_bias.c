@@ -347,7 +347,7 @@ END_TEST
 
 /* Position-based steps draw what turns back to its circle from the tangent: it loses w^2 h of its angular
  * velocity a second, so that w = w0 / sqrt(1 + 2 w0^2 h t). */
-START_TEST(position_based_spin_is_lost_with_the_square_of_its_speed)
+START_TEST(position_based_rotation_decays_with_its_squared_speed)
 {
   static const uint32_t substeps[] = {8, 16, 32, 64};
   const row r = {.scheme = SBF_SCHEME_POSITION_BASED, .substeps = substeps[_i]};
@@ -363,7 +363,7 @@ int main(void) {
   Suite *suite = suite_create("scheme_bias");
   TCase *c = tcase_create("scheme_bias");
   tcase_add_loop_test(c, bias_is_within_its_bound, 0, ROW_COUNT * CASE_COUNT);
-  tcase_add_loop_test(c, position_based_spin_is_lost_with_the_square_of_its_speed, 0, 4);
+  tcase_add_loop_test(c, position_based_rotation_decays_with_its_squared_speed, 0, 4);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

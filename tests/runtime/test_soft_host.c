@@ -61,7 +61,7 @@ static void check_vec3(const double is[3], const double wanted[3], double tolera
   for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(is[k], wanted[k], tolerance);
 }
 
-START_TEST(an_impulse_is_momentum_gained)
+START_TEST(an_impulse_adds_equal_momentum)
 {
   const float scale = _i ? 0.25f : 1;
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, 0, scale);
@@ -104,7 +104,7 @@ START_TEST(an_impulse_on_the_whole_body_deforms_nothing)
 }
 END_TEST
 
-START_TEST(a_velocity_that_is_set_is_had)
+START_TEST(a_velocity_that_is_set_is_read_back)
 {
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, 0, 0.5f);
   const sbf_vec3 v = {1, -2, 0.5f}, w = {0.5f, 2, -1};
@@ -146,7 +146,7 @@ START_TEST(a_force_acts_for_its_duration)
 }
 END_TEST
 
-START_TEST(pins_bear_what_hangs_on_them)
+START_TEST(pins_report_the_load_on_them)
 {
   const float scale = _i < SCHEMES ? 1 : 0.5f;
   scene s = cube(schemes[_i % SCHEMES], true, gravity, scale);
@@ -200,7 +200,7 @@ static scene bar(sbf_scheme scheme, bool both, float damping_ratio) {
   return s;
 }
 
-START_TEST(both_ends_bear_half_a_bar)
+START_TEST(both_ends_carry_half_a_bar)
 {
   scene s = bar(schemes[_i], true, 1);
   sbr_pin_reaction r[2];
@@ -222,7 +222,7 @@ END_TEST
 
 /* Momentum gained is the sum over time of weight and reactions, as of the end of each tick: in the schemes
  * that step by forces. */
-START_TEST(what_swings_gains_what_pins_and_weight_give)
+START_TEST(momentum_changes_by_pin_forces_and_weight)
 {
   scene s = bar(_i ? SBF_SCHEME_HEUN : SBF_SCHEME_SYMPLECTIC, false, 0);
   sbr_pin_reaction before, after;
@@ -269,7 +269,7 @@ START_TEST(goal_springs_are_pins_too)
 }
 END_TEST
 
-START_TEST(what_is_held_hangs_where_it_is_held)
+START_TEST(a_grabbed_body_hangs_at_its_grab_point)
 {
   scene s = cube(schemes[_i], false, gravity, 1);
   uint32_t vertex = far_corner(&s);
@@ -308,7 +308,7 @@ START_TEST(what_is_held_hangs_where_it_is_held)
 }
 END_TEST
 
-START_TEST(a_hold_never_pulls_harder_than_it_may)
+START_TEST(a_grab_never_exceeds_its_max_force)
 {
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, gravity, 1);
   uint32_t vertex = far_corner(&s);
@@ -330,7 +330,7 @@ START_TEST(a_hold_never_pulls_harder_than_it_may)
 }
 END_TEST
 
-START_TEST(what_sleeps_wakes)
+START_TEST(host_calls_wake_sleeping_bodies)
 {
   scene s = scene_begin();
   const sbf_vec3 at[2] = {{0, 1, 0}, {0, 0.5f, 0}};
@@ -403,17 +403,17 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("soft_host");
   TCase *c = tcase_create("soft_host");
-  tcase_add_loop_test(c, an_impulse_is_momentum_gained, 0, 2);
+  tcase_add_loop_test(c, an_impulse_adds_equal_momentum, 0, 2);
   tcase_add_test(c, an_impulse_on_the_whole_body_deforms_nothing);
-  tcase_add_test(c, a_velocity_that_is_set_is_had);
+  tcase_add_test(c, a_velocity_that_is_set_is_read_back);
   tcase_add_loop_test(c, a_force_acts_for_its_duration, 0, SCHEMES);
-  tcase_add_loop_test(c, pins_bear_what_hangs_on_them, 0, SCHEMES + 1);
-  tcase_add_loop_test(c, both_ends_bear_half_a_bar, 0, SCHEMES);
-  tcase_add_loop_test(c, what_swings_gains_what_pins_and_weight_give, 0, 2);
+  tcase_add_loop_test(c, pins_report_the_load_on_them, 0, SCHEMES + 1);
+  tcase_add_loop_test(c, both_ends_carry_half_a_bar, 0, SCHEMES);
+  tcase_add_loop_test(c, momentum_changes_by_pin_forces_and_weight, 0, 2);
   tcase_add_test(c, goal_springs_are_pins_too);
-  tcase_add_loop_test(c, what_is_held_hangs_where_it_is_held, 0, SCHEMES);
-  tcase_add_test(c, a_hold_never_pulls_harder_than_it_may);
-  tcase_add_test(c, what_sleeps_wakes);
+  tcase_add_loop_test(c, a_grabbed_body_hangs_at_its_grab_point, 0, SCHEMES);
+  tcase_add_test(c, a_grab_never_exceeds_its_max_force);
+  tcase_add_test(c, host_calls_wake_sleeping_bodies);
   tcase_add_test(c, bad_calls_are_refused_and_change_nothing);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -19,7 +19,7 @@ START_TEST(test_skins)
 }
 END_TEST
 
-START_TEST(test_skins_that_say_nothing)
+START_TEST(test_skins_without_weights)
 { sbf_asset_free(rules_expect_fix(SKINNED("1 0 1 1"), "", "SKIN_SUM /sbf/render_mesh[1]/skin/weights #1")); }
 END_TEST
 
@@ -51,4 +51,4 @@ START_TEST(test_embeddings)
 }
 END_TEST
 
-RULES_MAIN("fix_weights", test_skins, test_skins_that_say_nothing, test_pins, test_embeddings)
+RULES_MAIN("fix_weights", test_skins, test_skins_without_weights, test_pins, test_embeddings)

@@ -158,7 +158,7 @@ START_TEST(test_newer_minor_version)
 }
 END_TEST
 
-START_TEST(test_what_is_equal_to_nothing)
+START_TEST(test_ignored_syntax)
 {
   sbf_diagnostic error;
   sbf_asset *asset =
@@ -452,7 +452,7 @@ int main(void) {
   tcase_add_test(all, test_valid_samples);
   tcase_add_test(all, test_invalid_samples);
   tcase_add_test(all, test_newer_minor_version);
-  tcase_add_test(all, test_what_is_equal_to_nothing);
+  tcase_add_test(all, test_ignored_syntax);
   tcase_add_test(all, test_bodies_may_stand_apart);
   tcase_add_test(all, test_limits);
   tcase_add_test(all, test_long_lists_and_texts);
