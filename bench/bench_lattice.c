@@ -166,7 +166,7 @@ static void measure_tetgen(unsigned number, const sbf_soft_body *body, const stu
   if (file < 0) bench_fail("no file can be made in /tmp");
   close(file);
   write_off(path, &body->surface);
-  if (!run_tetgen(path, s->report.lattice_volume / s->report.tetrahedra, &seconds, &count))
+  if (!run_tetgen(path, s->report.lattices.volume / s->report.lattices.tetrahedra, &seconds, &count))
     fprintf(stderr, "tetgen is not installed\n");
   else if (count == 0)
     bench_print_row("%s,tetgen,,1,,,,,,,,,", surfaces[number].mesh);
@@ -205,12 +205,13 @@ static void measure(unsigned number, uint32_t elements, uint32_t rounds, bool be
   snprintf(size, sizeof size, "%.17g", s.cell);
   char volume[24] = "";
   if (surface.opening < 1e-3)
-    snprintf(volume, sizeof volume, "%.4f", s.report.lattice_volume / fabs(surface.volume));
+    snprintf(volume, sizeof volume, "%.4f", s.report.lattices.volume / fabs(surface.volume));
   process_memory memory = process_memory_of((const char *const[]){name, size, NULL});
   bench_print_row("%s,sbfmt,%u,%u,%.2f,%.2f,%.2f,%.0f,%.1f,%.1f,%s,%.3g,%zu", surfaces[number].mesh,
-      s.report.tetrahedra, rounds, of_pass.min * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
-      s.report.tetrahedra / of_pass.median, s.report.min_dihedral_deg, s.report.max_dihedral_deg, volume,
-      s.report.farthest_m / s.cell, memory.peak_bytes / 1024);
+      s.report.lattices.tetrahedra, rounds, of_pass.min * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
+      s.report.lattices.tetrahedra / of_pass.median, s.report.lattices.min_dihedral_deg,
+      s.report.lattices.max_dihedral_deg, volume, s.report.lattices.farthest_m / s.cell,
+      memory.peak_bytes / 1024);
   if (beside && surfaces[number].closed) measure_tetgen(number, body, &s);
   sbf_asset_free(source);
 }

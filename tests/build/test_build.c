@@ -408,7 +408,7 @@ START_TEST(bodies_without_a_stated_size_divide_the_default)
     sbf_build_report report;
     sbf_build_options options = {.without_calibration = true};
     sbf_asset *built = build(asset, &options, &report);
-    tetrahedra[k] = report.tetrahedra;
+    tetrahedra[k] = report.lattices.tetrahedra;
     sbf_asset_free(built);
   }
   ck_assert_uint_gt(tetrahedra[0], 1000);

@@ -310,8 +310,8 @@ START_TEST(coarse_levels_are_calibrated)
   add_beam(true);
   sbf_asset *built = build((sbf_build_options){.cell_m = 0.1}, &report);
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
-  ck_assert_uint_eq(report.calibrated, 1);
-  ck_assert_double_lt(report.max_period_error, 0.02);
+  ck_assert_uint_eq(report.lattice_calibration.count, 1);
+  ck_assert_double_lt(report.lattice_calibration.max_period_error, 0.02);
   ck_assert_float_eq(level->lattice.reference_modulus.at[0], 1e6f);
   ck_assert_float_lt(level->calibration->factor, 0.95f);
   ck_assert_float_gt(level->calibration->factor, 0.5f);
@@ -320,7 +320,7 @@ START_TEST(coarse_levels_are_calibrated)
   ck_assert_float_gt(level->simulation.cost, 100);
   sbf_asset_free(built);
   built = build((sbf_build_options){.cell_m = 0.1, .without_calibration = true}, &report);
-  ck_assert_uint_eq(report.calibrated, 0);
+  ck_assert_uint_eq(report.lattice_calibration.count, 0);
   ck_assert_uint_eq(built->soft_bodies.at[0].levels.at[0].lattice.young_modulus.count, 0);
   sbf_asset_free(built);
 }
@@ -384,14 +384,14 @@ START_TEST(a_free_body_is_calibrated_too)
   add_beam(false);
   sbf_asset *built = build((sbf_build_options){.cell_m = 0.1}, &report);
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
-  ck_assert_uint_eq(report.calibrated, 1);
+  ck_assert_uint_eq(report.lattice_calibration.count, 1);
   ck_assert_float_gt(level->calibration->factor, 0.5f);
   ck_assert_float_lt(level->calibration->factor, 1.1f);
   ck_assert_uint_eq(level->calibration->load_errors.count, SBFI_FREE_LOADS);
   for (uint32_t l = 0; l < SBFI_FREE_LOADS; l++)
     ck_assert_float_lt(fabsf(level->calibration->load_errors.at[l]), l < SBFI_BENDS ? 0.1f : 0.2f);
   ck_assert_uint_eq(level->calibration->twist_errors.count, SBFI_TWISTS);
-  ck_assert_double_lt(report.max_period_error, 0.02);
+  ck_assert_double_lt(report.lattice_calibration.max_period_error, 0.02);
   check_moduli(level);
   sbf_asset_free(built);
 }
@@ -414,7 +414,7 @@ START_TEST(standing_bodies_keep_the_stiffness_that_their_weight_needs)
   for (int i = 0; i < 3; i++) {
     body->attributes.young_modulus = moduli[i];
     sbf_asset *built = build(options, &report);
-    ck_assert_uint_eq(report.calibrated, 1);
+    ck_assert_uint_eq(report.lattice_calibration.count, 1);
     factors[i] = (double)built->soft_bodies.at[0].levels.at[0].calibration->factor;
     sbf_asset_free(built);
   }
@@ -614,11 +614,11 @@ START_TEST(a_surface_of_few_points_is_enough)
   sbf_asset *built;
   sbf_diagnostic error;
   ck_assert_int_eq(sbf_build(asset, &options, &built, &report, &error), SBF_OK);
-  ck_assert_uint_eq(report.calibrated, 1);
-  ck_assert_double_gt(report.min_factor, 0.8);
-  ck_assert_double_lt(report.max_factor, 1.3);
-  ck_assert_double_lt(report.max_residual, 0.1);
-  ck_assert_double_lt(report.max_period_error, 0.05);
+  ck_assert_uint_eq(report.lattice_calibration.count, 1);
+  ck_assert_double_gt(report.lattice_calibration.min_factor, 0.8);
+  ck_assert_double_lt(report.lattice_calibration.max_factor, 1.3);
+  ck_assert_double_lt(report.lattice_calibration.max_residual, 0.1);
+  ck_assert_double_lt(report.lattice_calibration.max_period_error, 0.05);
   /* Its twist is known by how slowly it would swing that way. */
   const sbf_f32_list *twists = &built->soft_bodies.at[0].levels.at[0].calibration->twist_errors;
   ck_assert_uint_eq(twists->count, SBFI_TWISTS);

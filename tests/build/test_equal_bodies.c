@@ -124,10 +124,10 @@ START_TEST(copies_share_one_calibration)
     }
   }
   ck_assert_uint_eq(report.bodies, BODIES);
-  ck_assert_uint_eq(report.calibrated, BODIES);
-  ck_assert_uint_eq(report.tetrahedra, tetrahedra);
+  ck_assert_uint_eq(report.lattice_calibration.count, BODIES);
+  ck_assert_uint_eq(report.lattices.tetrahedra, tetrahedra);
   uint64_t angles = 0;
-  for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) angles += report.dihedrals[k];
+  for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) angles += report.lattices.dihedrals[k];
   ck_assert_uint_eq(angles, 6 * (uint64_t)tetrahedra);
   /* Forty tetrahedra stand badly for the cube, which is reported of each of the equal bodies. */
   ck_assert_uint_eq(off_count, BODIES - 1);

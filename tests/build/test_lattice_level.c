@@ -102,13 +102,13 @@ START_TEST(a_cube_of_tetrahedra)
   ck_assert_int_eq(level->model, SBF_ELASTIC_MODEL_TETRAHEDRA);
   ck_assert_float_eq(level->cell, 0.1f);
   ck_assert_uint_eq(level->lattice.tetrahedra.count, 12 * 64 + 12 * 16);
-  ck_assert_uint_eq(report.tetrahedra, level->lattice.tetrahedra.count);
-  ck_assert_double_eq_tol(report.lattice_volume, 0.064, 1e-6);
-  ck_assert_double_ge(report.min_dihedral_deg, 44.9);
+  ck_assert_uint_eq(report.lattices.tetrahedra, level->lattice.tetrahedra.count);
+  ck_assert_double_eq_tol(report.lattices.volume, 0.064, 1e-6);
+  ck_assert_double_ge(report.lattices.min_dihedral_deg, 44.9);
   uint64_t angles = 0;
-  for (int i = 0; i < 18; i++) angles += report.dihedrals[i];
-  ck_assert_uint_eq(angles, 6 * (uint64_t)report.tetrahedra);
-  ck_assert_double_lt(report.farthest_m, 1e-6);
+  for (int i = 0; i < 18; i++) angles += report.lattices.dihedrals[i];
+  ck_assert_uint_eq(angles, 6 * (uint64_t)report.lattices.tetrahedra);
+  ck_assert_double_lt(report.lattices.farthest_m, 1e-6);
   ck_assert_uint_eq(level->springs.count + level->pins.count, 0);
   ck_assert_uint_eq(level->new_from_old.count, 26);
   ck_assert_uint_eq(level->new_from_old.at[25], UINT32_MAX);
@@ -311,7 +311,7 @@ static void check_shape(const sbf_level *level, const sbf_build_report *report) 
   ck_assert_uint_eq(shape.inverted_count, 0);
   ck_assert_double_ge(shape.min_dihedral_deg, 10);
   ck_assert_double_le(shape.max_dihedral_deg, 165);
-  ck_assert_mem_eq(shape.dihedrals, report->dihedrals, sizeof shape.dihedrals);
+  ck_assert_mem_eq(shape.dihedrals, report->lattices.dihedrals, sizeof shape.dihedrals);
   ck_assert_uint_eq(shape.dihedrals[0] + shape.dihedrals[17], 0);
 }
 
@@ -337,17 +337,17 @@ START_TEST(real_surfaces)
   sbf_asset *built = build((sbf_build_options){.elements = 20000}, &report);
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
   double cell = (double)level->cell;
-  ck_assert_uint_eq(report.tetrahedra, real[_i].tetrahedra);
+  ck_assert_uint_eq(report.lattices.tetrahedra, real[_i].tetrahedra);
   if (real[_i].tetrahedra == 0) {
     check_cloth(&built->soft_bodies.at[0]);
   } else {
     check_shape(level, &report);
     ck_assert_uint_eq(level->positions.count, real[_i].points);
-    ck_assert_uint_eq(report.thickened_points, real[_i].thickened);
-    ck_assert_double_eq_tol(report.min_dihedral_deg, real[_i].min_deg, 0.06);
-    ck_assert_double_eq_tol(report.max_dihedral_deg, real[_i].max_deg, 0.06);
-    ck_assert_double_eq_tol(report.lattice_volume / real[_i].volume, 1, 1e-3);
-    ck_assert_double_eq_tol(report.farthest_m / cell, real[_i].farthest_cells, 1e-3);
+    ck_assert_uint_eq(report.lattices.thickened_points, real[_i].thickened);
+    ck_assert_double_eq_tol(report.lattices.min_dihedral_deg, real[_i].min_deg, 0.06);
+    ck_assert_double_eq_tol(report.lattices.max_dihedral_deg, real[_i].max_deg, 0.06);
+    ck_assert_double_eq_tol(report.lattices.volume / real[_i].volume, 1, 1e-3);
+    ck_assert_double_eq_tol(report.lattices.farthest_m / cell, real[_i].farthest_cells, 1e-3);
     ck_assert_int_eq(was_noted(SBF_CODE_LATTICE_THIN), real[_i].thin);
     ck_assert_int_eq(was_noted(SBF_CODE_EMBEDDING_FAR), real[_i].farthest_cells > 1);
     ck_assert_double_lt(misplaced(level, &level->embeddings.at[1], &mesh.positions), 1e-5 * 20 * cell);

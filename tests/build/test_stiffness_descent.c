@@ -118,7 +118,7 @@ START_TEST(sections_of_a_lizard_deform_as_their_material)
   shape_sections_of_obj(lizard, harness_source("examples/lizard/lizard.obj"));
   const sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_CENTROID};
   ck_assert(sbf_build(lizard, &options, &made, &report, &error) == SBF_OK);
-  ck_assert_uint_eq(report.calibrated_springs, lizard->soft_bodies.count);
+  ck_assert_uint_eq(report.spring_calibration.count, lizard->soft_bodies.count);
   uint32_t near = 0;
   for (uint32_t i = 0; i < made->soft_bodies.count; i++) {
     const sbf_level *level = &made->soft_bodies.at[i].levels.at[0];

@@ -63,7 +63,7 @@ START_TEST(a_body_pinned_at_one_point_causes_a_warning)
   sbf_asset *built = build_bar(&position, 1, 300, 2);
   ck_assert_int_eq(noted, 1);
   ck_assert_ptr_nonnull(strstr(said, "\"bar\""));
-  ck_assert_uint_eq(report.calibrated, 0);
+  ck_assert_uint_eq(report.lattice_calibration.count, 0);
   for (uint32_t l = 0; l < built->soft_bodies.at[0].levels.count; l++) {
     const sbf_level *level = &built->soft_bodies.at[0].levels.at[l];
     ck_assert_float_eq(level->simulation.error, 0);
@@ -83,7 +83,7 @@ START_TEST(the_finest_is_kept_without_an_error)
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
   ck_assert_int_eq(noted, 1);
   ck_assert_ptr_nonnull(strstr(said, "not stated"));
-  ck_assert_uint_eq(report.calibrated, 0);
+  ck_assert_uint_eq(report.lattice_calibration.count, 0);
   ck_assert_float_eq(level->simulation.error, 0);
   ck_assert_float_gt(level->simulation.cost, 0);
   ck_assert_ptr_null(level->calibration);
