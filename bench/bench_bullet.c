@@ -160,7 +160,7 @@ static double run_ours(const scene *s, method *w, sbf_vec3 *track) {
   sbr_character_definition standing = sbr_default_character_definition();
   definition.ground = sbr_ground_flat(-1000);
   definition.sleep_after_s = 0;
-  standing.position.y = 1000, standing.hold = true;
+  standing.position.y = 1000, standing.hold_pose = true;
   bench_require(sbr_model_create(s->asset, &options, &model, &error), &error);
   bench_require(sbr_world_create(&definition, &world, &error), &error);
   bench_require(sbr_character_create(world, model, &standing, &id, &error), &error);

@@ -55,7 +55,7 @@ static void append_mesh(sbf_asset *asset, sbf_polygon_mesh *to, const sbf_polygo
   to->polygon_points = (sbf_u32_list){all, corners + from->polygon_points.count};
 }
 
-/* A source of one body, whose surface is the render mesh's, of whatever a file holds. */
+/* A source of one body. Its surface is the render mesh of the file. */
 static sbf_asset *one_body_of(unsigned number) {
   sbf_asset *from = character_asset(surfaces[number].folder, surfaces[number].mesh, NULL, false);
   if (!from || from->soft_bodies.count == 0) return NULL;

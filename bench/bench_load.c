@@ -27,7 +27,7 @@ static const char *const endings[FORM_COUNT] = {"xml.sbf", "zlib.sbfz", "stored.
 
 /* ---- Ways to load ---- */
 
-/* One way to load one file, and what it holds while it is loaded. */
+/* One method to load one file, and the memory in use while it is loaded. */
 typedef struct loading {
   char path[PATH_SIZE];
   sbf_load_options options;

@@ -126,7 +126,7 @@ static sbf_asset *make_c(void) {
 }
 
 /* The left forearm of the armadillo, its triangles beyond x = 4.5 m, in a tenth of its size; the hole where
- * it was cut is closed by a fan, whose rim is held. NULL where the armadillo is absent. */
+ * it was cut is closed by a fan with a pinned rim. NULL without the armadillo. */
 static sbf_asset *make_arm(void) {
   sbf_asset *whole = character_asset(SHARED_FOLDER "/armadillo", "armadillo_25k.obj", NULL, false);
   if (!whole) return NULL;

@@ -123,7 +123,7 @@ static void take_loading(void *user, const sbf_diagnostic *diagnostic) {
 
 /* Loads a file even if its only errors can be repaired. */
 static sbf_status load_for_repair(const char *path, sbf_asset **asset, repaired *m) {
-  sbf_load_options loading = {.check_crc = true, .mendable = true, .report = take_loading, .user = m};
+  sbf_load_options loading = {.check_crc = true, .repairable = true, .report = take_loading, .user = m};
   checked *refused = &m->left;
   sbf_diagnostic error;
   sbf_status status = sbf_load_file(path, &loading, asset, &error);

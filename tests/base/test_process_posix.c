@@ -201,7 +201,7 @@ START_TEST(no_descriptors_are_inherited)
   ck_assert_uint_eq(result.output_size, 8);
   ck_assert_mem_eq(result.output, "0 0 0 -1", 8);
   sbfi_process_result_free(&result);
-  sigprocmask(SIG_SETMASK, NULL, &now); /* and the host keeps what it had */
+  sigprocmask(SIG_SETMASK, NULL, &now); /* and the host's mask is unchanged */
   ck_assert(sigismember(&now, SIGTERM) && !sigismember(&now, SIGUSR1));
   close(pinned);
 }

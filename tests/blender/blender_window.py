@@ -9,7 +9,7 @@ import subprocess
 from blender_process import skip
 
 WIDTH, HEIGHT = 1300, 1250
-MOST_CPU_S = 150  # of the processor: thrice what it takes, on a machine with other work too
+MOST_CPU_S = 150  # of the processor: three times the usual, for busy machines
 MOST_S = 560
 
 

@@ -15,7 +15,7 @@ class Mends(fixtures.SceneTest):
         settings = self.scene.soft_body_format
         self.assertIn(code, self.check())
         index = next(i for i, one in enumerate(settings.findings) if one.code == code)
-        self.assertIsNotNone(repair_of(settings.findings[index], settings.mends_files))
+        self.assertIsNotNone(repair_of(settings.findings[index], settings.repairs_files))
         self.assertEqual(bpy.ops.sbfmt.repair(index=index), {"FINISHED"})
         return {one.code for one in settings.findings}
 
@@ -78,7 +78,7 @@ class Mends(fixtures.SceneTest):
             pin = made.soft_body_format.pins.add()
             pin.group, pin.armature, pin.bone = "g", rig, "hip"
         self.repair("PIN_REPEATED")
-        self.assertTrue(self.scene.soft_body_format.mends_files)
+        self.assertTrue(self.scene.soft_body_format.repairs_files)
         reported = [one.message for one in self.scene.soft_body_format.findings if one.code == "PIN_REPEATED"]
         self.assertTrue(reported and all(one.startswith("repaired in the file") for one in reported), reported)
         self.assertEqual(sum(len(pins.points) for pins in self.export(build=False).soft_bodies[0].pins), 3)

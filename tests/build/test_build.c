@@ -390,7 +390,7 @@ START_TEST(every_allocation_may_fail)
 }
 END_TEST
 
-/* A scene of many bodies is not as many times as dear as one. */
+/* The cost of a scene of many bodies is less than proportional to their number. */
 START_TEST(bodies_without_a_stated_size_divide_the_default)
 {
   enum { BODIES = 40 };

@@ -21,7 +21,7 @@ static void teardown(void) {
   sbf_asset_free(asset);
 }
 
-/* A beam of 1 x 0.2 x 0.2 m, E = 1 MPa, that is held at x = 0. */
+/* A beam of 1 x 0.2 x 0.2 m, E = 1 MPa, pinned at x = 0. */
 static sbf_soft_body *add_beam(bool pinned) {
   sbf_polygon_mesh cube = shape_cube(asset, 8, 0.2f, (sbf_vec3){0, 0, 0});
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)cube.positions.at;
@@ -168,14 +168,14 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
     double size = hypot(wanted.y, wanted.z);
     if (i < 3)
       ck_assert_double_lt(hypot(is.y - wanted.y, is.z - wanted.z), 0.02 * size);
-    else /* no modulus mends that: cubes cut alike, two across, twist by less; our own lattices do not */
+    else /* no modulus corrects that: equally cut cubes, two across, twist by less; our own lattices do not */
       ck_assert_double_eq_tol(is.turn / wanted.turn, 0.73, 0.03);
   }
   sbfi_reference_free(&r);
 }
 END_TEST
 
-/* Mean displacement of what lies beyond `x` under a force spread over it. */
+/* Mean displacement of the points beyond `x` under a force distributed over them. */
 static sbfi_d3 push(const sbf_soft_body *body, const sbf_level *level, float x, sbfi_d3 force) {
   sbfi_arena arena;
   sbfi_level_statics s;
@@ -272,7 +272,7 @@ static sbf_asset *build(sbf_build_options options, sbf_build_report *report) {
   return built;
 }
 
-/* None is beyond its bounds, of which the whole may take a little more; together they are what is said. */
+/* Each factor is within its bounds; the average agrees with the stated one. */
 static void check_moduli(const sbf_level *level) {
   const sbf_f32_list *moduli = &level->lattice.young_modulus;
   double sum = 0, whole = 0;

@@ -126,7 +126,7 @@ START_TEST(both_methods_pin_the_same_points)
 }
 END_TEST
 
-/* What an author pinned stays his, whatever hull it is in. */
+/* Authored pins are kept in any hull. */
 START_TEST(pins_have_precedence_over_hulls)
 {
   static const uint32_t points[] = {0, 1, 2, 3};

@@ -75,7 +75,7 @@ START_TEST(point_masses_equal_those_of_the_lattice)
 }
 END_TEST
 
-/* A modulus and a damping that rise along the bar, and an end that is held. */
+/* A modulus and a damping that rise along the bar, and a pinned end. */
 START_TEST(maps_and_pins_are_applied)
 {
   uint32_t count = body->surface.positions.count, pinned_count = 0, soft = 0, stiff = 0;

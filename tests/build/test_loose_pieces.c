@@ -66,7 +66,7 @@ START_TEST(tetrahedra_join_too)
 }
 END_TEST
 
-/* A square of springs with its diagonal, and a pair that nothing holds. */
+/* A square of springs with its diagonal, and an unpinned pair. */
 static bool turns(const char *pinned) {
   static const sbf_uint2 sides[] = {{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}, {{0, 2}}, {{4, 5}}};
   static const sbf_vec3 at[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 0, 0}, {9, 1, 0}};

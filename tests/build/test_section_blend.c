@@ -199,7 +199,8 @@ START_TEST(vertices_without_soft_bones_keep_their_weights)
 }
 END_TEST
 
-/* 3,000 bones on a skin of 24,000 points: memory grows with what holds them, not with bones times points. */
+/* 3,000 bones on a skin of 24,000 points: memory grows with the number of influences, not with bones times
+ * points. */
 START_TEST(memory_does_not_grow_with_bones_times_points)
 {
   sbfi_arena arena;

@@ -30,7 +30,7 @@ START_TEST(a_joint_at_each_head)
     ck_assert_int_eq(b->bone, (int32_t)j + 1);
     ck_assert_float_eq_tol(a->center.y + joint->frame_a.position.y, (float)j + 1, 1e-5f);
     ck_assert_float_eq_tol(b->center.y + joint->frame_b.position.y, (float)j + 1, 1e-5f);
-    /* Its +X is the bone's +Y, which is that of the asset. */
+    /* Its +X is the bone's +Y, which is +Y of the asset. */
     sbf_quat q = joint->frame_b.rotation;
     ck_assert_float_eq_tol(2 * (q.x * q.y + q.w * q.z), 1, 1e-5f);
   }

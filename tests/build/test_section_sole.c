@@ -3,7 +3,7 @@
 #include "harness.h"
 #include "skinned_limb.h"
 
-/* A tube of two bones that stands on the first one's lower end, half of which the second one holds too. */
+/* A tube of two bones that stands on the lower end of the first; the second moves half of that end too. */
 static sbf_asset *standing(bool on_a_leg) {
   const skinned_limb of = {.bones = 2, .sides = 8, .rings_a_bone = 10, .radius = 0.2f, .slope = 3.8f};
   sbf_asset *asset = skinned_limb_make(&of);

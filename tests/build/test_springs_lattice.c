@@ -115,7 +115,7 @@ static double sag_of(sbfi_spring_interior interior, uint32_t n, double cell, uin
   return sum / free_points;
 }
 
-/* Held in its inner half, as the centroid's cube is held at its core, it falls by about as much. */
+/* Pinned in its inner half, it sags by about as much as the centroid's cube pinned at its core. */
 START_TEST(a_lattice_supports_its_weight)
 {
   uint32_t few, many;

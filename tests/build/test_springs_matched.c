@@ -159,7 +159,7 @@ static double sag(const bar *b, int axis) {
   return sum / ends;
 }
 
-/* What a bar does depends on rho g L / E and nothing else: whatever its size, stuff, and kind of level. */
+/* The motion of a bar depends on rho g L / E only, for any size, material and kind of level. */
 START_TEST(sag_scales_with_weight_over_modulus)
 {
   static const sbf_build_interior interiors[] = {

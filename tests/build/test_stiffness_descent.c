@@ -46,7 +46,7 @@ static float *stated(void) {
 }
 
 /* Every spring was made otherwise, by up to three: the displacements say by how much, but for what many
- * stiffnesses have alike. */
+ * stiffnesses share. */
 START_TEST(springs_are_recovered_from_their_response)
 {
   double left, before;

@@ -88,7 +88,7 @@ START_TEST(points_outside_have_a_distance)
 }
 END_TEST
 
-/* Near and far, inside and outside: what is solved beforehand changes nothing. */
+/* Near and far, inside and outside: precomputed values change no result. */
 START_TEST(few_searches_find_as_much_as_many)
 {
   sbfi_tetrahedron_finder few;

@@ -47,7 +47,7 @@ START_TEST(attributes_that_split_a_point)
   mesh.polygon_materials = (sbf_u32_list){slots, 2};
   ck_assert_uint_eq(count(&mesh, none), 8);
   mesh.polygon_materials.count = 0;
-  /* Coordinates that agree in value do not split, whatever their numbers. */
+  /* Coordinates of equal value do not split, at any index. */
   static const sbf_vec2 same[] = {{0.5f, 0.5f}, {0.5f, 0.5f}};
   static const uint32_t by_polygon[] = {0, 0, 0, 0, 1, 1, 1, 1};
   sbf_uv_set uv;

@@ -235,7 +235,7 @@ START_TEST(touching_shells_stay_separate)
 }
 END_TEST
 
-/* An eye in a head: no bone runs through it, and the nearest bone is that of a thin ear. */
+/* An eye in a head: no bone runs through it, and the nearest bone belongs to a thin ear. */
 START_TEST(eyes_follow_the_head_around_them)
 {
   tubes_add_ball(tubes, (sbfi_d3){0, 0, 0}, 0.5, 24);
@@ -309,7 +309,7 @@ START_TEST(a_pad_before_a_joint_follows_the_carrier)
 }
 END_TEST
 
-/* In one skin around both the limb holds what is nearest to its joint, also before it. */
+/* In one skin around both, vertices nearest to the limb's joint follow the limb, also in front of it. */
 START_TEST(skin_around_a_joint_follows_its_limb)
 {
   const sbfi_d3 path[] = {{0, 0, 0}, {0, 2, 0}, {1.6, 2, 0}};
@@ -361,7 +361,7 @@ START_TEST(frames_and_controls_get_no_weights)
   tubes->bone_count = 0;
   uint32_t frame = tubes_add_bone(tubes, "body", SBF_NONE, (sbfi_d3){0.5, 0, 0}, (sbfi_d3){0.5, 1, 0});
   tubes->bone_count = 4;
-  /* An aim before the arm, a handle in the place of its last joint, and one that says what it is. */
+  /* An aim in front of the arm, a handle at its last joint, and a handle with a telling name. */
   uint32_t aim =
       tubes_add_bone(tubes, "elbow.aim", (int32_t)frame, (sbfi_d3){1.5, 0, 2}, (sbfi_d3){1.5, 0, 3});
   uint32_t pull = tubes_add_bone(tubes, "grip", (int32_t)frame, (sbfi_d3){2, 0, 0}, (sbfi_d3){2, 1, 0});

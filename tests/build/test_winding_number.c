@@ -196,7 +196,7 @@ START_TEST(a_tube_of_slivers)
 }
 END_TEST
 
-/* What is kept is less than 200 bytes a triangle; what is only needed to make it takes more. */
+/* The tree takes less than 200 bytes a triangle; building it takes more. */
 START_TEST(memory_is_freed)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 60, 2, (sbf_vec3){0, 0, 0});

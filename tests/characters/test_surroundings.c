@@ -1,5 +1,5 @@
-/* Colliders around a character that walks: what is high is a wall, what is low is stepped on, what moves
- * carries it, and where nothing bears it, it falls. */
+/* Colliders around a walking character: high ones are walls, low ones are stepped on, moving ones
+ * carry it, and without ground it falls. */
 #include <math.h>
 #include <stdio.h>
 
@@ -273,7 +273,7 @@ START_TEST(a_bridge_is_walked_under)
 }
 END_TEST
 
-/* The ground is far below: a floor of colliders alone bears it. */
+/* The ground is far below: it stands on a floor of colliders. */
 START_TEST(a_lift_lifts_it)
 {
   scene s = scene_of(pup_model, -50, 0);

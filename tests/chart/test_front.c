@@ -12,7 +12,7 @@ START_TEST(only_undominated_entries_are_on_the_front)
   uint32_t front[9];
   ck_assert_uint_eq(chart_front_of(points, 9, front), 4);
   ck_assert_uint_eq(front[0], 1);
-  ck_assert_uint_eq(front[1], 2); /* the first of two alike */
+  ck_assert_uint_eq(front[1], 2); /* the first of two equal ones */
   ck_assert_uint_eq(front[2], 0);
   ck_assert_uint_eq(front[3], 8);
 }

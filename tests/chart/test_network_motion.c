@@ -70,7 +70,7 @@ START_TEST(a_pendulum_has_its_period)
 }
 END_TEST
 
-/* One tetrahedron of three free corners, let go under gravity: what it moves with was its energy. */
+/* One tetrahedron with three free corners, released under gravity: its energy is conserved. */
 START_TEST(a_tetrahedron_conserves_energy)
 {
   static const sbf_vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}};

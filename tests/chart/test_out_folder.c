@@ -39,7 +39,7 @@ START_TEST(a_folder_is_made_with_all_files_or_not_at_all)
   ck_assert(!is_there(path, "a.csv"));
   ck_assert_int_eq(chart_folder_commit(&folder, &error), SBF_OK);
   ck_assert(is_there(path, "a.csv") && is_there(path, "b.svg") && access(folder.temporary, F_OK) != 0);
-  /* and again, over what is there, beside what else is */
+  /* and again, over the existing files and beside others */
   ck_assert_int_eq(chart_folder_begin(&folder, path, &error), SBF_OK);
   put(&folder, "b.svg", "3"), put(&folder, "c.csv", "4");
   ck_assert_int_eq(chart_folder_commit(&folder, &error), SBF_OK);

@@ -1,4 +1,4 @@
-/* A reference that is too coarse for what it is to judge makes itself finer. */
+/* A reference that is too coarse for its measurements is refined. */
 #include "chart/reference.h"
 
 #include <stdlib.h>
@@ -47,7 +47,7 @@ static double stated_share(const found *f) {
   return f->stated.errors[CHART_PATH] / chart_extent_of(&f->truth.track, f->rest);
 }
 
-/* Two runs of the same motion, looked at from anew: how far the first is off the second. */
+/* Two runs of the same motion: the distance of the first from the second. */
 static double separation(
     const found *f, const sbf_scheme schemes[2], const uint32_t substeps[2], double *errors) {
   chart_track tracks[2];

@@ -1,4 +1,4 @@
-"""An OBJ with a skeleton that has no mesh: weights computed from the bones, shells given to bones, and what is refused."""
+"""An OBJ with a skeleton that has no mesh: weights computed from the bones, shells assigned to bones, and refused inputs."""
 
 import json
 import math
@@ -185,7 +185,7 @@ class ComputedWeights(ProgramTest):
         self.assertIn("IMPORT_EMPTY", printed)
 
     def test_hanging_arms_get_the_bones_of_stretched_arms(self):
-        """The rig's limbs are turned to lie in the mesh; its clips still say what they said."""
+        """The rig's limbs are rotated into the mesh; its clips keep their motion."""
         ranges = write_person(self.path("person.obj"), self.path("person.bvh"))
         done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "-o", self.path("person.sbf"))
         self.assertIn("limbs were rotated with their children to fit inside it, 'LeftArm', 'RightArm'", done.err)

@@ -43,7 +43,7 @@ def flat(value):
 
 class Usda(ProgramTest):
     def exported(self, path, *options):
-        """The prims after what holds for every file, and what `info` says of the source."""
+        """The prims, after checks that every file passes, and the source's `info`."""
         out = self.path("out.usda")
         self.said = self.good("export", path, "-o", out, *options).err
         layer, self.prims = usda_files.read(out)

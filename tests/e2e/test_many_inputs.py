@@ -1,4 +1,4 @@
-"""Calls on several files: the exit status is the worst of all, in whatever order they are named, and each good one is done."""
+"""Calls on several files: the exit status is the worst of all, in any order, and each good file is processed."""
 
 import itertools
 import os
@@ -25,7 +25,7 @@ f 4 1 5 8
 
 class ManyInputs(ProgramTest):
     def expect_worst(self, files, verb, *options):
-        """`files` by name: the status of each alone is that of the call on all of them, where it is the greatest."""
+        """`files` by name: the call on all returns the greatest status of the calls on each."""
         alone = {name: call(verb, path, *options).status for name, path in files.items()}
         self.assertEqual(alone, {"good": 0, "faulty": 1, "absent": 2})
         for count in (2, 3):
@@ -83,7 +83,7 @@ class ManyInputs(ProgramTest):
         self.assertEqual(unchanged("--unit", "2"), 3)
         write_bytes(inputs[1], CUBE.replace("0.2", "0.3").encode())
         self.assertEqual(unchanged("--unit", "2"), 2)
-        write_bytes(self.path("c.mtl"), b"newmtl m\n")  # what lies beside it counts
+        write_bytes(self.path("c.mtl"), b"newmtl m\n")  # files beside it count
         self.assertEqual(unchanged("--unit", "2"), 2)
         os.remove(os.path.join(out, "a.sbf"))
         self.assertEqual(unchanged("--unit", "2"), 2)

@@ -97,7 +97,7 @@ class Strength(ProgramTest):
             self.assertGreater(sign * (heights[12] - heights[0]), 1e-3, gravity)
 
     def test_stronger_drives_follow_the_pose_better(self):
-        """From 1 on a limb is held level by definition; without a bound as well; weaker ones sink the more, as without any."""
+        """From 1 on, and without a bound, a limb stays level by definition; the weaker the drive, the more the limb sinks."""
         limp, weak, enough, unbounded = (self.sag(*options) for options in (
             ("--ragdoll",), ("--strength", "0.3"), ("--strength", "4"), ("--strength", "0")))
         self.assertGreater(limp, 0.05)

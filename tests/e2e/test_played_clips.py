@@ -73,7 +73,7 @@ class Played(ProgramTest):
 
     @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
     def test_a_spider_that_is_thrown_about(self):
-        """Legs swing at 40 rad/s, and feet are 2.4 m farther within a tick: what the legs are made of goes along."""
+        """Legs swing at 40 rad/s, and feet move 2.4 m within a tick: the legs' soft bodies follow."""
         path = convert_once(self.class_folder.name, "spider.sbf", shared("spider", "spider.glb"))
         for clip in range(5):
             report = self.json_of("run", path, "--clip", str(clip), "--seconds", "3")

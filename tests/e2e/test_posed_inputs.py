@@ -15,7 +15,7 @@ POSES = dict(posed_inputs.POSES)
 
 class PosedInputs(ProgramTest):
     def pose(self, name, change=lambda obj: obj, path=None):
-        """The example in its pose as an OBJ of other unit and axes, the truth, and what is said of the conversion. `path`:
+        """The example in its pose as an OBJ of other unit and axes, the expected result, and the messages of the conversion. `path`:
         a changed file of the example."""
         original = Original(path or posed_inputs.path_of(name), self.folder)
         obj, motions = posed_inputs.pose_of(original, POSES[name])

@@ -1,4 +1,4 @@
-"""Results for ParaView: every file is read by Python's own XML, and the numbers are held against closed forms."""
+"""Results for ParaView: every file is read by Python's own XML, and the numbers are compared with closed forms."""
 
 import base64
 import glob
@@ -94,7 +94,7 @@ class Results(ProgramTest):
         return read_series(self.path("out.pvd"))
 
     def test_a_bar_supports_its_own_weight(self):
-        """Between two layers of points the mean stress is the weight of what hangs below, over the area."""
+        """Between two layers of points the mean stress is the weight below, over the area."""
         side, layers, step = 2, 8, 0.05
         held = lambda points: '<pin_set name="Top"><points>%s</points></pin_set>' % numbers(
             *(i for i, p in enumerate(points) if p[1] > (layers - 0.5) * step))

@@ -102,7 +102,7 @@ class RiggedInputs(ProgramTest):
             self.assertEqual([max(w, key=w.get) for _, (w, _) in sorted(found.items())], wanted)
 
     def test_several_characters_in_one_file(self):
-        """The rig is that of one: the other is named, and can be given away or left out."""
+        """The rig belongs to one of them: the other is reported, and can be assigned to a bone or left out."""
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
         objects = {"body": column.body, "hat": column.hat,
@@ -144,7 +144,7 @@ class RiggedInputs(ProgramTest):
         self.assertNotIn("RIG_OTHER_MESH", printed)
 
     def test_a_mesh_that_resembles_the_rigs(self):
-        """Another character of one maker may share its hat: what is carried over to its body is reported."""
+        """Another character of the same maker may have the same hat: weights transferred to its body are reported."""
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
         (points, triangles), objects = column.body, column.objects()
@@ -223,7 +223,7 @@ class RiggedInputs(ProgramTest):
         self.assertIn("has only tetrahedra and cannot use a rig: convert the surface as OBJ or PLY with --rig", printed)
 
     def test_objects_named_as_bones_of_a_rig_without_a_mesh(self):
-        """They are sections of those bones, whatever bone is nearest; the others are computed."""
+        """They are sections of those bones, even if another bone is nearer; the others are computed."""
         write_bones(self.path("arm.bvh"))
         objects = {"hand": box((0.2, -0.2, -0.2), (0.8, 0.2, 0.2)), "fore": box((1.2, -0.2, -0.2), (1.8, 0.2, 0.2)),
                    "other": box((2.2, -0.2, -0.2), (2.8, 0.2, 0.2))}

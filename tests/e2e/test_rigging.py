@@ -345,7 +345,7 @@ class ByNearness(ProgramTest):
         self.assertLess(len(unlike), 0.02 * len(found))
 
     def test_a_piece_beside_the_body_follows_the_bone_in_contact(self):
-        """A pole on the calf's back: all of it moves with one bone, that of the nearest point."""
+        """A pole on the calf's back: all of it moves with one bone: the bone of the nearest point."""
         obj = variants.jiggled(self.calf.obj, 0)
         top = max(range(len(obj.points)), key=lambda i: obj.points[i][1])
         x, y, z = obj.points[top]

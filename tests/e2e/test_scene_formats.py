@@ -1,4 +1,4 @@
-"""Formats that assimp reads and of which no real file is at hand: a small box in each, written by scene_files.py."""
+"""Formats that assimp reads, without real files: a small box in each, written by scene_files.py."""
 
 import re
 import unittest

@@ -96,7 +96,7 @@ class SkinSections(ProgramTest):
         bare = skin_of(self.calf)[0]
 
         def least_volume_of(path):
-            """Of several walks: what is worn has a mass, and makes each of them a little different."""
+            """Of several walks: clothes have a mass, which changes each walk a little."""
             reports = [self.json_of("run", path, "--seconds", "2", "--drive", drive) for drive in ("0.3,0", "0.5,0")]
             self.assertTrue(all(report["valid"] for report in reports))
             return min(report["volume_ratio_least"] for report in reports)

@@ -72,7 +72,7 @@ class Softness(ProgramTest):
         self.assertEqual(report["seam_gap"], 0)
 
     def test_vertices_beside_a_soft_part_follow_all_their_bones(self):
-        """No pose tears the skin between a section and what is rigid: at rest each vertex is in its place, and blends sum to 1."""
+        """No pose tears the skin between sections and rigid parts: at rest each vertex is at its position, and blends sum to 1."""
         root = ElementTree.parse(self.calf).getroot()
         shares = {}
         for embedding in root.findall("soft_body/level/embedding[@render_mesh]"):
@@ -134,7 +134,7 @@ class Softness(ProgramTest):
         self.assertGreater(report["distance"], 0.3)
 
     def test_heads_in_any_language_are_not_soft(self):
-        """A person's face is painted on its head, whatever that is called."""
+        """A person's face is painted on its head, under any name of the head."""
         yeti = os.path.join(ROOT, "examples", "yeti", "yeti.glb")
         for head in ("head", "Kopf", "голова", "头"):
             glb, out = SkinnedGlb.of(yeti), self.path("yeti.sbf")

@@ -203,7 +203,7 @@ class Tuned(ProgramTest):
         self.assertEqual(self.json_of("tune", rigid, "-o", out)["verdict"], "met")
 
     def test_candidates_worse_than_the_best_are_stopped_early(self):
-        visits = [trial["visits"] for trial in self.all["trials"]]  # none of what is refused, which stands behind
+        visits = [trial["visits"] for trial in self.all["trials"]]  # without the refused ones, which come last
         tried = [trial["visits"] for trial in self.all["trials"] if trial["outcome"] != "refused"]
         self.assertEqual(visits, sorted(tried) + [None] * (len(visits) - len(tried)))
         beaten = [trial for trial in self.all["trials"] if trial["outcome"] == "beaten"]

@@ -196,7 +196,7 @@ f 4 1 5 8
 
     @unittest.skipUnless(shutil.which("xdotool"), "there is no xdotool to press keys with")
     def held(self, shot, seconds):
-        """W held so long, then a ball, another size and the end, as a keyboard gives them; what is then said."""
+        """W pressed for some time, then a ball, another size and the end, as keyboard events; returns the output."""
         program = subprocess.Popen([PROGRAM, "view", self.file, *SMALL, "--shot", shot, "--format", "json"],
                                    env={**os.environ, **self.environment}, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 

@@ -1,4 +1,4 @@
-/* Characters as binary glTF: what is written comes back, and what is damaged is refused. */
+/* Characters as binary glTF: written files read back equal, and damaged files are refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

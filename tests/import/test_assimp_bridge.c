@@ -304,7 +304,7 @@ START_TEST(images_are_imported)
 }
 END_TEST
 
-/* The bind transforms put every point where its weights hold it at rest, of a file saved at rest. */
+/* In a file saved at rest, the bind transforms put every point at its skinned rest position. */
 START_TEST(skins_fit_their_joints)
 {
   static const char *const files[] = {
@@ -359,7 +359,7 @@ START_TEST(bad_files_give_a_clear_error)
   sbfi_scene scene;
   sbf_diagnostic error;
   ck_assert_int_eq(read_with(&scene, path, NULL, &error), SBF_BAD_INPUT);
-  /* What a write beyond its memory does to assimp depends on what lies there. */
+  /* The effect of a write beyond assimp's memory depends on its contents. */
   bool unsure = _i == 0 && error.code == SBF_CODE_IMPORT_EMPTY;
   ck_assert_msg(
       unsure || error.code == (int32_t)bad[_i].code, "%s: %d %s", path, (int)error.code, error.message);

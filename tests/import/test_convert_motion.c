@@ -106,7 +106,7 @@ START_TEST(the_hips_move_half_as_far_as_a_leg)
   direction(asset, 0.5f, 2, to, position);
   expect(to, 0, -sqrt(0.5), sqrt(0.5));
   direction(asset, 0.5f, 3, to, position);
-  expect(to, 0, 1, 0); /* goes along */
+  expect(to, 0, 1, 0); /* follows its parent */
   sbf_asset_free(asset);
 }
 END_TEST

@@ -92,7 +92,7 @@ START_TEST(frames_along_y_are_kept)
   }
   ck_assert_float_eq_tol(c.asset->bones.at[0].length, 2, 1e-6f);
   ck_assert_float_eq_tol(c.asset->bones.at[1].length, 3, 1e-6f);
-  ck_assert_float_eq(c.asset->bones.at[2].length, 0); /* what hangs on it lies aside */
+  ck_assert_float_eq(c.asset->bones.at[2].length, 0); /* its child lies aside */
   converted_free(&c);
   sbfi_scene_free(&scene);
 }

@@ -37,7 +37,7 @@ START_TEST(a_foot_under_the_root_is_attached_to_its_limb)
     converted_scene(&c, &scene, &scene, NULL);
     int32_t foot = bone_named(c.asset, "foot"), last = bone_named(c.asset, "last");
     ck_assert_int_eq(c.asset->bones.at[foot].parent, last);
-    ck_assert_int_gt(foot, last); /* parents first, whatever the file's order */
+    ck_assert_int_gt(foot, last); /* parents first, in any order of the file */
     ck_assert_float_eq_tol(c.asset->bones.at[last].length, 1, 1e-6f);
     ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_BONE_REHUNG), 1);
     const char *message = converted_note(&c, SBF_CODE_RIG_BONE_REHUNG)->message;

@@ -314,7 +314,7 @@ static void build_hopper(sbfi_scene *s) {
   box_bone(s, "foot", shin, D3(0, -0.25, -0.05), D3(0.05, 0.05, 0.1), D3(0, -0.05, 0.05));
 }
 
-/* The file holds crawl: what is said of walk would mislead. */
+/* The file states crawl: a message about walk would mislead. */
 START_TEST(one_leg_gives_no_gait)
 {
   converted c;

@@ -160,7 +160,7 @@ START_TEST(a_missing_library_is_a_warning)
 }
 END_TEST
 
-/* Names with blanks, in quotes, and several on a line; what is missing is named whole. */
+/* Names with blanks, in quotes, and several on a line; missing files are reported with their whole name. */
 START_TEST(names_of_libraries_may_have_blanks)
 {
   static const struct {

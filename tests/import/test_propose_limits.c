@@ -96,8 +96,9 @@ START_TEST(sections_of_a_skin)
 {
   converted c;
   converted_file(&c, harness_source("examples/calf/calf.glb"),
-      &(sbf_convert_options){
-          .limits = SBF_CONVERT_LIMITS_QUADRUPED, .soft = (const char *const[]){"*"}, .soft_count = 1});
+      &(sbf_convert_options){.limits = SBF_CONVERT_LIMITS_QUADRUPED,
+          .softness.soft = (const char *const[]){"*"},
+          .softness.soft_count = 1});
   sbf_asset *built;
   sbf_build_report report;
   ck_assert_int_eq(sbf_build(c.asset, NULL, &built, &report, NULL), SBF_OK);

@@ -84,7 +84,7 @@ START_TEST(bytes_after_the_end_are_refused)
 }
 END_TEST
 
-/* Every word becomes what breaks readers: whatever is accepted must keep the promises of a scene. */
+/* Replaces every word by values that break readers: accepted scenes must keep the promises of a scene. */
 START_TEST(every_word_damaged)
 {
   static const uint32_t words[] = {0, 1, 3, 5, 0x7fffffff, 0x80000000, 0xffffffff, 0x7f800000, 0x7fc00000,

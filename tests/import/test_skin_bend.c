@@ -27,7 +27,7 @@ static void report_progress(const char *file, const skin_bend *r) {
 static void check(const char *name, const char *path, uint32_t sections, uint32_t seams_min) {
   converted c;
   const char *const all[] = {"*"};
-  converted_file(&c, path, &(sbf_convert_options){.soft = all, .soft_count = 1});
+  converted_file(&c, path, &(sbf_convert_options){.softness.soft = all, .softness.soft_count = 1});
   sbf_asset *built;
   sbf_build_report report;
   ck_assert_int_eq(sbf_build(c.asset, NULL, &built, &report, NULL), SBF_OK);

@@ -19,7 +19,7 @@ static const char old_avatar[] =
     ":{\"boneGroups\":[{\"comment\":\"hair\",\"bones\":[1],\"colliderGroups\":[0]}],\"colliderGroups\":[{"
     "\"node\":0,\"colliders\":[{\"radius\":0.1}]}]}}}}";
 
-/* A line of nodes, of which the first is a bone. */
+/* A line of nodes; the first is a bone. */
 static bool begin(sbfi_scene *scene, const sbf_allocator *allocator) {
   if (!sbfi_scene_init(scene, allocator, 0, "a.vrm")) return false;
   sbfi_scene_node *nodes = sbfi_arena_allocate(&scene->arena, NODES, sizeof *nodes);

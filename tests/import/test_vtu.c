@@ -154,7 +154,7 @@ START_TEST(headers_are_believed_as_far_as_the_bytes_allow)
 }
 END_TEST
 
-/* What deflate makes the smallest, zeros, is still within what is allowed. */
+/* Zeros, which deflate compresses the most, are still within the limit. */
 START_TEST(large_empty_grids_are_read)
 {
   enum { COUNT = 80000 };

@@ -13,7 +13,7 @@ static double needed(float height, float density) {
 /* rho g h / E = 1/20 */
 START_TEST(by_weight)
 {
-  ck_assert_double_eq(needed(0.4f, 1000), 80000); /* the usual modulus bears that */
+  ck_assert_double_eq(needed(0.4f, 1000), 80000); /* the usual modulus supports that */
   ck_assert_double_eq(needed(2, 1000), 400000);   /* 392400, rounded up to two digits */
   ck_assert_double_eq(needed(2, 100), 80000);
   ck_assert_double_eq(needed(1e30f, 1e10f), 80000); /* no such thing */

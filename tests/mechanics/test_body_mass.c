@@ -43,7 +43,7 @@ START_TEST(volume_by_tributary_area)
 }
 END_TEST
 
-/* Whether the masses are stated or come from a lattice: what is held carries none of it. */
+/* Pinned points have no mass, both with stated masses and with those of a lattice. */
 START_TEST(pinned_points_of_other_bodies_have_no_mass)
 {
   static const sbf_uint4 tetrahedra[] = {{{0, 1, 2, 3}}};

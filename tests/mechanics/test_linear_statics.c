@@ -12,7 +12,7 @@ static sbfi_arena arena;
 static lattice_box box;
 static sbf_spring_network network;
 
-/* A bar of 20 x 3 x 3 cells, held at x = 0: many points, of which smooth errors are slow to go. */
+/* A bar of 20 x 3 x 3 cells, pinned at x = 0: many points, so smooth errors decay slowly. */
 static void setup(void) {
   sbfi_arena_init(&arena, NULL, 0);
   box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){2, 0.3f, 0.3f}, 20, 3, 3, 1000, 1e6f, 0.3f);
@@ -134,7 +134,7 @@ START_TEST(a_small_unpinned_bar)
 }
 END_TEST
 
-/* Refreshed moduli are factorised anew. */
+/* Refreshed moduli are factorised again. */
 START_TEST(a_small_bar_of_twice_the_modulus)
 {
   static double forces[3 * FEW], before[3 * FEW], after[3 * FEW];

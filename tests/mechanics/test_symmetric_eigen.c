@@ -45,7 +45,7 @@ START_TEST(nothing_to_do)
   ck_assert(matrix[0] == 0 && vectors[0] == 1 && vectors[1] == 0 && vectors[3] == 1);
   sbfi_symmetric_compute_eigen(2, diagonal, vectors);
   ck_assert(diagonal[0] == 3 && diagonal[3] == -1);
-  double odd[4] = {NAN, 1, 1, 2}; /* ends, whatever comes out */
+  double odd[4] = {NAN, 1, 1, 2}; /* terminates with any result */
   sbfi_symmetric_compute_eigen(2, odd, vectors);
 }
 END_TEST

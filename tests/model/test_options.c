@@ -56,7 +56,7 @@ START_TEST(test_options_of_any_version_are_accepted)
   given.struct_size = sizeof(size_t) + sizeof(int);
   ck_assert(sbfi_options_copy(&taken, sizeof taken, &given));
   ck_assert(taken.old == 1 && taken.young == 0);
-  given.struct_size = sizeof given + 100; /* of a newer one: what is known of it */
+  given.struct_size = sizeof given + 100; /* of a newer version: known members are read */
   ck_assert(sbfi_options_copy(&taken, sizeof taken, &given));
   ck_assert_int_eq(taken.young, 2);
   given.struct_size = 3;

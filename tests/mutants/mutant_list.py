@@ -9,7 +9,7 @@ REQUIRED = [key for key in KEYS if key != "under"]
 
 
 class ListError(Exception):
-    """The list itself is at fault."""
+    """The list itself is invalid."""
 
 
 @dataclass

@@ -9,7 +9,7 @@ enum { COUNT = 200000, BYTES = COUNT * 4 };
 
 static uint32_t *ramp(void) {
   uint32_t *values = malloc(BYTES);
-  /* Each four times, as a filter of what is named again needs it. */
+  /* Each four times, as the filter of repeated values needs them. */
   for (uint32_t i = 0; i < COUNT; i++) values[i] = i / 4 * 3 + (i / 4 * 2654435761u >> 29);
   return values;
 }

@@ -20,7 +20,7 @@ START_TEST(test_bytes_are_those_of_the_specification)
 }
 END_TEST
 
-/* Strips of triangles over large numbers, cut into blocks that begin anew but for the difference. */
+/* Strips of triangles with large indices, cut into blocks that restart the differences. */
 START_TEST(test_blocks_round_trip)
 {
   enum { COUNT = 3000 };

@@ -251,7 +251,7 @@ START_TEST(test_wrong_outline)
 }
 END_TEST
 
-/* A load of the whole that compares checksums looks at what it does not need as well. */
+/* A full load with checksums also checks the chunks that it does not need. */
 START_TEST(test_checksums_of_unread_chunks)
 {
   sbf_asset *asset = fill_asset(&(fill_options){.seed = 9, .items = 90}), *loaded;

@@ -50,7 +50,7 @@ class Detail(unittest.TestCase):
     def test_a_world_chooses_levels_by_visibility(self):
         kinds = [one.kind for one in detail.detail_levels(self.model)]
         with runtime.World(runtime.flat(0.0), capacity=20) as world:
-            detail.choose(world, error_px=0.5, away_after_s=0.2)
+            detail.choose(world, error_px=0.5, offscreen_after_s=0.2)
             near, far, behind = (world.add(self.model, position=(0, 0, z)) for z in (2, 60, -30))
             mirrored = world.add(self.model, position=(1, 0, -1.5))
             behind.drive(forward=0.3)  # who stands asleep costs nothing as it is

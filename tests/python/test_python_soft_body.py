@@ -1,4 +1,4 @@
-"""Soft bodies through Python: their motion, impulses and forces, a vertex that is held and dragged, pins, stresses."""
+"""Soft bodies through Python: their motion, impulses and forces, a grabbed and dragged vertex, pins, stresses."""
 
 import os
 import sys
@@ -29,7 +29,7 @@ class SoftBody(unittest.TestCase):
     def world(self, model, **how):
         world = runtime.World(None, sleep_after=0, **how)
         self.addCleanup(world.close)
-        return world, world.add(model, position=(0, 1, 0), hold=True)  # beside no ground
+        return world, world.add(model, position=(0, 1, 0), hold_pose=True)  # beside no ground
 
     def step(self, world, ticks):
         for _ in range(ticks):
@@ -68,14 +68,14 @@ class SoftBody(unittest.TestCase):
         self.assertEqual(soft_body.nearest_vertex(one, 0, at), 7)
         for lift in (0.1, 0.2):
             target = (at[0], at[1] + lift, at[2])
-            soft_body.hold(one, 0, 7, target)
+            soft_body.grab(one, 0, 7, target)
             self.step(world, 2)
-            self.assertGreater(soft_body.hold_force(one, 0, 7)[1], 0)
+            self.assertGreater(soft_body.grab_force(one, 0, 7)[1], 0)
             self.step(world, 90)
             self.assertAlmostEqual(one.origin[1] + one.surface(0)[3 * 7 + 1], target[1], delta=0.005)
         self.assertTrue(soft_body.release(one, 0, 7))
         self.assertFalse(soft_body.release(one, 0, 7))
-        self.assertEqual(soft_body.hold_force(one, 0, 7), (0, 0, 0))
+        self.assertEqual(soft_body.grab_force(one, 0, 7), (0, 0, 0))
 
     def test_pins_carry_the_weight(self):
         world, one = self.world(self.pinned)
@@ -105,7 +105,7 @@ class SoftBody(unittest.TestCase):
         world, one = self.world(self.loose)
         self.step(world, 1)
         for call in (lambda: soft_body.apply_impulse(one, 99, (0, 1, 0)), lambda: soft_body.apply_impulse(one, 0, (float("nan"), 0, 0)),
-                     lambda: soft_body.hold(one, 0, 10 ** 6, (0, 0, 0)), lambda: soft_body.set_velocity(one, 99, (0, 0, 0))):
+                     lambda: soft_body.grab(one, 0, 10 ** 6, (0, 0, 0)), lambda: soft_body.set_velocity(one, 99, (0, 0, 0))):
             with self.assertRaises(sbfmt.Error):
                 call()
 

@@ -85,7 +85,7 @@ class Samples(Comparison):
         self.assert_same_in_all_forms(example(self.class_folder.name))
 
     def test_invalid_samples_are_refused(self):
-        """By both, or where the fault is one of meaning that only `validate` finds, read by both alike."""
+        """Refused by both; or, if only `validate` finds the error, read by both with equal content."""
         samples = sorted(glob.glob(os.path.join(SAMPLES, "invalid", "*.sbf*")))
         refused = 0
         for path in samples:

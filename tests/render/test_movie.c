@@ -112,7 +112,7 @@ START_TEST(ffmpeg_fails)
 }
 END_TEST
 
-/* Noise, of which a film needs more room than there is. ffmpeg exits with 0 then for some kinds. */
+/* Noise: its film needs more space than the disk has. ffmpeg then exits with 0 for some formats. */
 START_TEST(disk_is_full)
 {
   static const char *const names[] = {"full.gif", "full.mp4", "full.webp"};

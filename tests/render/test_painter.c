@@ -272,7 +272,7 @@ START_TEST(ground_is_dark_under_objects)
 }
 END_TEST
 
-/* Of what is solid, too, which throws shadows on itself. */
+/* Also of solid objects, which cast shadows on themselves. */
 START_TEST(same_scene_same_picture)
 {
   static uint8_t first[sizeof rgb];

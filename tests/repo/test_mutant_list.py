@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The list of mutants: what is read, applied and refused. Whether its texts are still in the source, `./run mutants --check` says."""
+"""The list of mutants: reading, applying and refusing it. `./run mutants --check` checks that its texts are still in the source."""
 import os
 import sys
 import tempfile

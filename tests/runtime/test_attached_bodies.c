@@ -8,7 +8,7 @@
 #include "state/world.h"
 
 enum { ACROSS = 5, HIGH = 3, DEEP = 3, POINTS = ACROSS * HIGH * DEEP };
-/* Of the bone with the flesh; the other one is what it hangs on. */
+/* Of the bone with the flesh; the other is its parent. */
 enum { TRUNK, LIMB };
 
 typedef struct limb {

@@ -43,7 +43,7 @@ START_TEST(a_traversal_finds_all_overlaps)
 }
 END_TEST
 
-/* Boxes that have moved far: what is asked for is found as in a tree made of them. */
+/* Boxes that have moved far: a refitted tree finds the same as a new one. */
 START_TEST(a_refitted_tree_finds_all_overlaps)
 {
   static sbri_box boxes[COUNT];

@@ -113,7 +113,7 @@ START_TEST(a_reset_restores_the_rest_shape)
   ck_assert_double_eq_tol(after.x, before.x, 1e-4);
   ck_assert_double_eq_tol(after.z, before.z, 1e-4);
   scene_ticks(&s, 60);
-  ck_assert_double_lt(deformation(&s), 1e-4); /* and it bears its weight: nothing moves */
+  ck_assert_double_lt(deformation(&s), 1e-4); /* and it supports its weight: nothing moves */
   scene_free(&s);
 }
 END_TEST
@@ -143,7 +143,7 @@ START_TEST(scaled_bodies_move_equally)
   scene *scenes[] = {&small, &large};
   for (int i = 0; i < 2; i++) {
     scene_body(scenes[i], 0)->attributes.sag_free = false; /* it swings under its weight */
-    scenes[i]->character_definition.hold = true;
+    scenes[i]->character_definition.hold_pose = true;
     scenes[i]->character_definition.scale = i ? 4 : 1;
     scenes[i]->world_definition.control_tick_s = i ? 1.0 / 30 : 1.0 / 60;
     scene_start(scenes[i]);
@@ -269,7 +269,7 @@ START_TEST(invalid_numbers_are_never_accepted)
   for (int k = 0; k < 5; k++) {
     sbr_detail_definition detail = sbr_default_detail_definition();
     float *at[5] = {
-        &detail.error_px, &detail.budget_us, &detail.ns_per_visit, &detail.stay_s, &detail.away_after_s};
+        &detail.error_px, &detail.budget_us, &detail.ns_per_visit, &detail.stay_s, &detail.offscreen_after_s};
     *at[k] = no;
     ck_assert_int_eq(sbr_world_select_detail_levels(s.world, &detail, &error), SBF_FAILED);
   }

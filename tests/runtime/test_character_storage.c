@@ -118,7 +118,7 @@ static void check(const crowd *c, double from) {
 static crowd crowd_begin(harness_memory *memory, const sbr_tasks *tasks) {
   crowd c = {.s = detail_scene_begin(false)};
   sbr_detail_definition detail = sbr_default_detail_definition();
-  detail.away_after_s = -1;
+  detail.offscreen_after_s = -1;
   harness_memory_init(memory, SIZE_MAX);
   c.s.world_definition.allocator = &memory->allocator;
   c.s.world_definition.character_capacity = CROWD;

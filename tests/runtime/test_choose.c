@@ -131,7 +131,7 @@ START_TEST(a_camera_that_trembles_changes_nothing)
       was[i] = detail_level_of(&c, i);
     }
   }
-  ck_assert_uint_le(changes, 2); /* to the finer ones of what it trembles between */
+  ck_assert_uint_le(changes, 2); /* to the finer of the two levels */
   scene_free(&c.s);
 }
 END_TEST

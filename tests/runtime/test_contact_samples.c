@@ -175,7 +175,7 @@ START_TEST(a_contact_impulse_acts_at_its_sample)
   sbf_vec3 change = sbri_sub(after_v, before_v);
   float sideways = sbri_length(sbri_add_scaled(change, contact.normal, -gain));
   ck_assert_float_eq_tol(sideways, friction * gain, 1e-3f);
-  /* The momentum is that of a push there: it does not turn the body about that place. */
+  /* The momentum is that of an impulse at the sample: it has no moment about the sample. */
   const float *change_at = &change.x;
   for (int i = 0; i < 3; i++) {
     ck_assert_double_eq_tol(

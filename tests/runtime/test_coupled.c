@@ -18,7 +18,7 @@ static scene weightless(void) {
   return s;
 }
 
-/* A block of flesh of that mass, both ends of which are held by a box each. */
+/* A block of flesh of that mass; each end is pinned to a box. */
 static scene dumbbell(float soft_kg, float rigid_kg, float damping_ratio) {
   scene s = weightless();
   lattice_box box = lattice_box_make(

@@ -10,7 +10,7 @@
 
 static const double G = 9.81;
 
-/* Bare points keep their radius from what they touch. */
+/* Bare points keep their radius as distance in contacts. */
 static const float KEPT_M = 0.01f;
 
 enum flesh { CUBE, MATTRESS }; /* 30 cm and 27 kg; 80 x 20 x 80 cm and 20 kg */
@@ -103,7 +103,7 @@ START_TEST(weight_presses_as_it_should)
   host_body b = host_body_make(&s, collision_box(0.5f * scale, 0.05f * scale, 0.5f * scale), mass, NULL, 1,
       (sbr_double3){0, height + 0.05 * (double)scale, 0});
   host_body_go(&s, &b, 240, -10);
-  double own = 0.5 * 160 * G * 0.04 / 50000; /* what it sinks by itself */
+  double own = 0.5 * 160 * G * 0.04 / 50000; /* its sag under its own weight */
   double sinks = height - (b.at[1] - (0.05 + (double)KEPT_M) * (double)scale),
          wanted = (100 * G * 0.2 / (0.64 * 50000) + own) * (double)scale;
   ck_assert_double_eq_tol(sinks, wanted, 0.05 * wanted);
@@ -112,7 +112,7 @@ START_TEST(weight_presses_as_it_should)
 }
 END_TEST
 
-/* A light crate on the host's floor bears the cube, though it gave way if it were free. */
+/* A light crate on the host's floor carries the cube; a free crate would yield. */
 START_TEST(bodies_on_a_floor_carry_others)
 {
   scene s = flesh_begin();

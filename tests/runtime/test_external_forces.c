@@ -47,7 +47,7 @@ START_TEST(a_hinge_has_the_gradient_of_its_angle)
 }
 END_TEST
 
-/* A box whose quads are bent: the sum of the faces' gradients at a corner is that of the volume. */
+/* A box with bent quads: the sum of the faces' gradients at a corner is the gradient of the volume. */
 START_TEST(faces_have_the_gradient_of_the_volume)
 {
   static const uint32_t quads[6][4] = {

@@ -1,4 +1,4 @@
-/* Thin limbs, of which no vertex lies in the other where they cross, and rigid rods through soft bodies. */
+/* Crossed thin limbs without a vertex inside the other, and rigid rods through soft bodies. */
 #include <math.h>
 
 #include "contact_scenes.h"
@@ -134,7 +134,7 @@ typedef struct pierced {
 } pierced;
 static const pierced rods[] = {
     {9, 0.04f, {0.03f, 0.03f, 0.4f}, {0.02f, 0.004f, 0.05f}},  /* a rod through a limb */
-    {7, 0.02f, {0.03f, 0.03f, 0.4f}, {0.03f, 0.004f, 0.02f}},  /* a thin limb, no vertex of which is in it */
+    {7, 0.02f, {0.03f, 0.03f, 0.4f}, {0.03f, 0.004f, 0.02f}},  /* a thin limb without a vertex in it */
     {22, 0.05f, {0.02f, 0.02f, 0.03f}, {0.07f, 0.01f, 0.01f}}, /* what a limb holds all around */
     {13, 0.03f, {0.2f, 0.2f, 0.02f}, {0.3f, 0, 0}},            /* a plate at the end of one */
 };

@@ -439,7 +439,7 @@ START_TEST(large_bodies_reach_their_speed_and_keep_it)
 }
 END_TEST
 
-/* Beyond what it can walk a foot at a time. */
+/* Faster than it can walk one foot at a time. */
 START_TEST(steps_are_quicker_at_higher_speed)
 {
   walk w;

@@ -73,7 +73,7 @@ START_TEST(springs_to_missing_points_are_refused)
     ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_BAD_INPUT);
     ck_assert_int_eq(error.code, SBF_CODE_CROSS_SPRING_POINT);
     ck_assert_ptr_nonnull(strstr(error.message, "1000000"));
-    cross->level_b = 1; /* of what is not simulated nothing is asked */
+    cross->level_b = 1; /* nothing is required of levels that are not simulated */
     scene_start(&s);
     scene_free(&s);
   }

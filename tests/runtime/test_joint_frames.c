@@ -65,7 +65,7 @@ START_TEST(rates_are_differences)
 }
 END_TEST
 
-/* What is held has its value and rate at 0. */
+/* Locked axes have value and rate 0. */
 START_TEST(held_coordinates_agree_at_zero)
 {
   uint32_t seed = 3;

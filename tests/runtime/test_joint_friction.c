@@ -75,7 +75,7 @@ START_TEST(friction_shortens_each_swing)
 }
 END_TEST
 
-/* What it can hold it holds, but for a creep below a milliradian a second; what is more breaks loose. */
+/* Loads up to the bound stick, with a creep below a milliradian a second; greater loads slip. */
 START_TEST(friction_carries_loads_up_to_its_bound)
 {
   bool holds = _i < KINDS;

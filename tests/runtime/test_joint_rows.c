@@ -45,7 +45,7 @@ static double period(const scene *s, uint32_t joint, sbf_joint_axis axis, double
 
 static const double small_box = 0.02 * 0.02 / 6; /* I / m of a cube of 2 cm */
 
-/* A cone's bound is no wall at its axis: what hangs along it swings out either way, at once. */
+/* A cone's bound does not act at its axis: a body that hangs along the axis swings freely to both sides. */
 START_TEST(a_cone_does_not_act_at_its_axis)
 {
   scene s = begin();
@@ -359,7 +359,7 @@ START_TEST(a_drive_answers_a_step)
 }
 END_TEST
 
-/* A drive gives no more than its maximum: it holds what that bears, and lets the rest fall. */
+/* A drive's force is at most its maximum: it carries a load up to that, and a greater load falls. */
 START_TEST(a_drive_has_a_maximum)
 {
   for (int strong = 0; strong < 2; strong++) {
@@ -380,7 +380,7 @@ START_TEST(a_drive_has_a_maximum)
 }
 END_TEST
 
-/* A joint that bears 15 N holds a kilogram, and breaks under two. */
+/* A joint with a strength of 15 N carries one kilogram and breaks under two. */
 START_TEST(joints_break)
 {
   for (int heavy = 0; heavy < 2; heavy++) {

@@ -16,7 +16,7 @@ static scene box_with_level(uint32_t *corners_used) {
   scene_section(&s, 0, middle, size, 3);
   scene_skin(&s, 0);
   s.character_definition.position.y = 0;
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   s.world_definition.ground = sbr_ground_flat(0);
   sbf_render_mesh *mesh = (sbf_render_mesh *)(uintptr_t)s.asset->render_meshes.at;
   uint32_t point_of[8];

@@ -80,7 +80,7 @@ static void grid_surface(scene *s, const sbf_level *level, uint32_t from) {
 typedef struct kind {
   const char *name;
   elastic model;
-  bool surface, alone; /* alone: one box holds it, which bears it */
+  bool surface, alone; /* alone: pinned to one box, which carries it */
   bool hung;           /* the first box holds nothing of the surface */
   sbf_pressure_mode pressure;
   float pa, limit, yield, tear, goal, damping, times;

@@ -78,7 +78,7 @@ START_TEST(a_wave_travels_at_its_frequency_times_its_length)
   }
   double lag = atan2(sums[1][1], sums[1][0]) - atan2(sums[0][1], sums[0][0]);
   while (lag < 0) lag += 2 * PI;
-  double between = (double)LENGTH * 0.5; /* from the middle of the one bone to that of the other */
+  double between = (double)LENGTH * 0.5; /* between the middles of two bones */
   ck_assert_double_eq_tol(2 * PI * f * between / lag, f * 0.8 * (double)LENGTH, 0.01 * f);
   double height = 2 * hypot(sums[0][0], sums[0][1]) / ticks; /* 2 pi a / lambda */
   ck_assert_double_eq_tol(height, 2 * PI * 0.05 / 0.8, 0.01);

@@ -98,7 +98,7 @@ END_TEST
 START_TEST(bodies_that_cannot_support_it_are_unchanged)
 {
   scene s = section(true);
-  s.model_options.free = true; /* nothing holds it */
+  s.model_options.free = true; /* no pins */
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
   for (uint32_t i = 0; i < island->springs.count; i++) {

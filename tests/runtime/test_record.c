@@ -19,13 +19,13 @@ static scene make(sbr_instructions instructions) {
 }
 
 static void push(const scene *s, int which) {
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab hold = sbr_default_vertex_grab();
   hold.target = (sbr_double3){12, 901, -3};
   const sbf_vec3 one = {0.1f, 0.2f, -0.3f};
   if (which == 0) (void)sbr_character_set_soft_velocity(s->world, s->character, 0, one, one, NULL);
   if (which == 1) (void)sbr_character_apply_soft_impulse(s->world, s->character, 0, 3, one, NULL);
   if (which == 2) (void)sbr_character_apply_soft_force(s->world, s->character, 0, 5, one, 0.1f, NULL);
-  if (which == 3) (void)sbr_character_hold_vertex(s->world, s->character, 0, 2, &hold, NULL);
+  if (which == 3) (void)sbr_character_grab_vertex(s->world, s->character, 0, 2, &hold, NULL);
   if (which == 4) (void)sbr_character_release_vertex(s->world, s->character, 0, 2);
 }
 

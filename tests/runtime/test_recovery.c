@@ -127,7 +127,7 @@ START_TEST(a_body_with_slivers_falls)
 }
 END_TEST
 
-/* In steps that are enough nothing of this is seen, and the state is that of the scheme alone. */
+/* With enough steps no recovery acts, and the state is the same as without recovery. */
 START_TEST(stable_bodies_are_not_reset)
 {
   scene s = begin_cube(1, SBF_SCHEME_AUTOMATIC, 0);
@@ -140,7 +140,7 @@ START_TEST(stable_bodies_are_not_reset)
 }
 END_TEST
 
-/* Its rest shape would be in the ground: what strains it is what holds it. */
+/* Its rest shape would be in the ground: its pins strain it. */
 START_TEST(bodies_pressed_into_the_ground_by_their_bone_are_not_reset)
 {
   scene s = scene_begin();
@@ -149,7 +149,7 @@ START_TEST(bodies_pressed_into_the_ground_by_their_bone_are_not_reset)
   scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position = (sbr_double3){0, 0, 0};
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   scene_start(&s);
   scene_ticks(&s, 180);
   ck_assert(health_of(&s).finite);

@@ -158,7 +158,7 @@ START_TEST(flat_and_mirrored_starts_recover)
 }
 END_TEST
 
-/* Two of the lowest mode's periods lose what its damping ratio says; the frequency is that of the model. */
+/* Two periods of the lowest mode decay by its damping ratio; the frequency is the model's. */
 START_TEST(the_lowest_mode_is_damped_by_the_ratio)
 {
   scene s = make_block(60);

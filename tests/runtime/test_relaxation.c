@@ -39,7 +39,7 @@ static void make_body(scene *s, uint32_t index, const reference_section *from) {
   uint32_t *pinned = calloc(pinned_count, sizeof *pinned);
   for (uint32_t i = 0; i < pinned_count; i++) pinned[i] = from->surface_count + i;
   scene_pin(s, level, 0, pinned, pinned_count);
-  /* Sets in another order than that of the visits, which goes by kind. */
+  /* Sets in another order than the visits, which are ordered by kind. */
   const sbf_spring_kind kinds[] = {
       SBF_SPRING_KIND_SHEAR, SBF_SPRING_KIND_STRUCTURAL, SBF_SPRING_KIND_INTERNAL};
   const reference_pair *pairs[] = {from->diagonals, from->edges, from->inner};
@@ -66,7 +66,7 @@ static float compare(const char *obj, float gravity, float stiffness, bool groun
   s.asset->relaxation.stiffness = stiffness;
   s.asset->relaxation.gravity = gravity;
   s.model_options.scheme = SBF_SCHEME_RELAXATION;
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   s.character_definition.position.y = ground ? 0 : 1000;
   s.world_definition.ground = sbr_ground_flat(ground ? 0 : -1000);
   scene_start(&s);

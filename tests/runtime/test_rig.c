@@ -58,7 +58,7 @@ START_TEST(legs_are_three_bones_or_a_peg_or_have_a_toe)
 {
   gait_stage s;
   gait_stage_begin(&s, make());
-  ck_assert_uint_eq(s.rig.leg_count, 2); /* what is neither is left out */
+  ck_assert_uint_eq(s.rig.leg_count, 2); /* bones of neither leg are ignored */
   ck_assert(s.rig.legs[0].upper == 1 && s.rig.legs[0].lower == -1 && s.rig.legs[0].foot == 2);
   ck_assert_float_eq_tol(s.rig.legs[0].length.upper, sqrtf(0.09f + 0.0025f), 1e-6f);
   gait_stage_end(&s);

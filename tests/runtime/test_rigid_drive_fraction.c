@@ -85,7 +85,7 @@ START_TEST(the_drive_fraction_scales_the_drive)
   scene s = arms();
   scene_start(&s);
   sbr_rigid_drive drive = sbr_default_rigid_drive();
-  drive.joint_friction = 0; /* which would hold it before */
+  drive.joint_friction = 0; /* friction would stop it earlier */
   sbr_character_set_rigid_drive(s.world, s.character, &drive);
   drive_all(&s);
   for (uint32_t i = 0; i < ARMS; i++) give(&s, (int32_t)i + 1, fractions[_i][i]);
@@ -283,7 +283,7 @@ START_TEST(shares_change_without_a_jump)
 }
 END_TEST
 
-/* Let go in the middle of a swing it swings on, and does not begin anew from rest. */
+/* Released in the middle of a swing, it continues its motion instead of starting at rest. */
 START_TEST(released_bodies_keep_their_velocity)
 {
   float times[KEYS], values[4 * KEYS];

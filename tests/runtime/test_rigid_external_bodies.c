@@ -82,7 +82,7 @@ START_TEST(a_box_struck_at_an_end)
 }
 END_TEST
 
-/* A crate lies on a box that lies on the ground, which bears both. */
+/* A crate on a box on the ground. */
 START_TEST(a_crate_rests_on_a_hull)
 {
   const double masses[5] = {0.01, 0.3, 1, 5, 60};
@@ -124,7 +124,7 @@ START_TEST(two_hulls_carry_it_together)
 }
 END_TEST
 
-/* A ball of 5 kg hits a person of 14 parts in the air; joints hand on what it gives. */
+/* A ball of 5 kg hits a person of 14 parts in the air; joints transmit the impulse. */
 START_TEST(a_ball_hits_a_person)
 {
   scene s = person();
@@ -194,7 +194,7 @@ START_TEST(a_tower_weighs)
 }
 END_TEST
 
-/* And what lies on it they bear together. */
+/* Both carry the load on it. */
 START_TEST(a_crate_rests_on_a_tower)
 {
   const double masses[3] = {0.1, 1, 5};
@@ -210,7 +210,7 @@ START_TEST(a_crate_rests_on_a_tower)
 }
 END_TEST
 
-/* A light body of the host's that its floor bears bears the tower. */
+/* A light body of the host on its floor carries the tower. */
 START_TEST(a_floor_carries_a_tower)
 {
   scene s = tower(-1000);
@@ -222,7 +222,7 @@ START_TEST(a_floor_carries_a_tower)
 }
 END_TEST
 
-/* A ball strikes one of two boxes that meet: all three keep what they have. */
+/* A ball hits one of two boxes in contact: the momentum of all three is conserved. */
 START_TEST(struck_boxes_strike_others)
 {
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});

@@ -87,7 +87,7 @@ START_TEST(drives_keep_the_pose)
 }
 END_TEST
 
-/* What is let go keeps going; what is caught is at its pose at once. */
+/* Released bodies keep moving; bodies that become kinematic take their pose at once. */
 START_TEST(modes_change_in_motion)
 {
   scene s = person();

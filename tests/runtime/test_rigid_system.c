@@ -146,7 +146,8 @@ START_TEST(a_chain_fixed_at_both_ends_hangs)
 }
 END_TEST
 
-/* Five by five boxes on ball joints, hung by a corner box and let go from level: 51 rows close loops. */
+/* Five by five boxes on ball joints, attached at a corner box and released from level: 51 rows close loops.
+ */
 START_TEST(a_net_carries_its_load)
 {
   enum { SIDE = 5 };

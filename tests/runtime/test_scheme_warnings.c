@@ -20,7 +20,7 @@ static void hear(void *user, const sbf_diagnostic *diagnostic) {
   strncpy(h->last, diagnostic->message, sizeof h->last - 1);
 }
 
-/* A held section of springs, or a bar of tetrahedra that is held nowhere. */
+/* A pinned section of springs, or an unpinned bar of tetrahedra. */
 static scene make(bool solid, float modulus, sbf_scheme scheme, uint32_t substeps) {
   scene s = scene_begin();
   if (solid) {

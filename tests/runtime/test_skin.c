@@ -21,7 +21,7 @@ static scene box(uint32_t cells) {
   scene_section(&s, 0, (sbf_vec3){0, 0.5f, 0}, (sbf_vec3){0.4f, 0.2f, 0.6f}, cells);
   scene_skin(&s, 0);
   s.character_definition.position.y = 0;
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   s.world_definition.ground = sbr_ground_flat(0);
   return s;
 }

@@ -108,7 +108,7 @@ START_TEST(a_velocity_that_is_set_is_read_back)
 {
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, 0, 0.5f);
   const sbf_vec3 v = {1, -2, 0.5f}, w = {0.5f, 2, -1};
-  for (int i = 0; i < 2; i++) { /* what it had before does not matter */
+  for (int i = 0; i < 2; i++) { /* regardless of its previous motion */
     ck_assert_int_eq(sbr_character_set_soft_velocity(s.world, s.character, 0, v, w, NULL), SBF_OK);
     sbr_soft_motion m = sbr_character_get_soft_motion(s.world, s.character, 0);
     ck_assert_float_eq_tol(m.velocity.x, v.x, 1e-5f);
@@ -158,7 +158,7 @@ START_TEST(pins_report_the_load_on_them)
   ck_assert_int_eq(r.bone, -1);
   ck_assert_float_eq_tol(r.force.y, weight, off * weight);
   ck_assert_float_eq_tol(r.force.x, 0, off * weight);
-  /* The centre of mass is to the side: the pins hold it up by a moment, weight times arm. */
+  /* The centre of mass is to the side: the moment of the pins is weight times lever arm. */
   sbr_soft_motion m = sbr_character_get_soft_motion(s.world, s.character, 0);
   float arm = m.center.x - r.about.x;
   ck_assert_float_gt(arm, 0.15f * scale);
@@ -212,7 +212,7 @@ START_TEST(both_ends_carry_half_a_bar)
     ck_assert_uint_eq(r[k].points, 9);
     ck_assert_float_eq_tol(r[k].force.y, weight / 2, 0.01f * weight);
   }
-  /* It sags: each end pulls the bar outwards, and holds it against turning. */
+  /* It sags: each end pulls the bar outwards and resists its rotation. */
   ck_assert_float_lt(r[0].force.x, 0);
   ck_assert_float_eq_tol(r[1].force.x, -r[0].force.x, 0.01f * weight);
   ck_assert_float_gt(r[0].torque.z, 0.05f * weight);
@@ -275,15 +275,15 @@ START_TEST(a_grabbed_body_hangs_at_its_grab_point)
   uint32_t vertex = far_corner(&s);
   sbf_vec3 at = vertex_at(&s, vertex);
   sbr_double3 o = sbr_character_get_origin(s.world, s.character);
-  sbr_soft_hold hold = {0};
+  sbr_vertex_grab hold = {0};
   sbf_diagnostic error;
-  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, &error), SBF_FAILED);
-  ck_assert_ptr_nonnull(strstr(error.message, "begin with sbr_default_soft_hold"));
-  hold = sbr_default_soft_hold();
+  ck_assert_int_eq(sbr_character_grab_vertex(s.world, s.character, 0, vertex, &hold, &error), SBF_FAILED);
+  ck_assert_ptr_nonnull(strstr(error.message, "begin with sbr_default_vertex_grab"));
+  hold = sbr_default_vertex_grab();
   hold.target = (sbr_double3){o.x + (double)at.x + 0.3, o.y + (double)at.y + 0.2, o.z + (double)at.z};
   hold.frequency_hz = 4;
   float weight = mass_of(&s) * gravity, k = mass_of(&s) * powf(2 * 3.14159265f * hold.frequency_hz, 2);
-  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
+  ck_assert_int_eq(sbr_character_grab_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
   for (int i = 0; i < 40; i++) { /* nothing else stops the pendulum */
     scene_ticks(&s, 30);
     ck_assert_int_eq(sbr_character_set_soft_velocity(
@@ -294,7 +294,7 @@ START_TEST(a_grabbed_body_hangs_at_its_grab_point)
   o = sbr_character_get_origin(s.world, s.character);
   ck_assert_double_eq_tol(o.y + (double)at.y, hold.target.y - (double)(weight / k), 0.01);
   ck_assert_double_eq_tol(o.x + (double)at.x, hold.target.x, 0.02);
-  sbf_vec3 force = sbr_character_get_hold_force(s.world, s.character, 0, vertex);
+  sbf_vec3 force = sbr_character_get_grab_force(s.world, s.character, 0, vertex);
   ck_assert_float_eq_tol(force.y, weight, 0.1f * weight);
   /* Let go it falls as it is. */
   ck_assert(sbr_character_release_vertex(s.world, s.character, 0, vertex));
@@ -303,7 +303,7 @@ START_TEST(a_grabbed_body_hangs_at_its_grab_point)
   scene_ticks(&s, 6);
   float fell = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y - before;
   ck_assert_float_eq_tol(fell, -0.1f * gravity, 1e-3f);
-  ck_assert_float_eq(sbr_character_get_hold_force(s.world, s.character, 0, vertex).y, 0);
+  ck_assert_float_eq(sbr_character_get_grab_force(s.world, s.character, 0, vertex).y, 0);
   scene_free(&s);
 }
 END_TEST
@@ -313,14 +313,14 @@ START_TEST(a_grab_never_exceeds_its_max_force)
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, gravity, 1);
   uint32_t vertex = far_corner(&s);
   sbr_double3 o = sbr_character_get_origin(s.world, s.character);
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab hold = sbr_default_vertex_grab();
   float weight = mass_of(&s) * gravity;
   hold.target = (sbr_double3){o.x, o.y + 50, o.z};
   hold.max_force = 0.5f * weight;
-  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
+  ck_assert_int_eq(sbr_character_grab_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
   float before = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y;
   scene_ticks(&s, 12);
-  sbf_vec3 force = sbr_character_get_hold_force(s.world, s.character, 0, vertex);
+  sbf_vec3 force = sbr_character_get_grab_force(s.world, s.character, 0, vertex);
   ck_assert_float_le(
       sqrtf(force.x * force.x + force.y * force.y + force.z * force.z), hold.max_force * 1.0001f);
   float fell = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y - before;
@@ -374,7 +374,7 @@ START_TEST(bad_calls_are_refused_and_change_nothing)
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, gravity, 1);
   const sbf_vec3 one = {1, 0, 0}, none = {NAN, 0, 0}, endless = {0, INFINITY, 0};
   sbf_diagnostic e;
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab hold = sbr_default_vertex_grab();
   uint64_t hash = sbr_world_get_state_hash(s.world);
   sbr_world *w = s.world;
   sbr_character_id c = s.character, nobody = {12345};
@@ -384,12 +384,12 @@ START_TEST(bad_calls_are_refused_and_change_nothing)
   refused(sbr_character_apply_soft_impulse(w, c, 0, 0, none, &e), &e, "not a finite number");
   refused(sbr_character_set_soft_velocity(w, c, 0, one, endless, &e), &e, "not a finite number");
   refused(sbr_character_apply_soft_force(w, c, 0, 0, one, -1, &e), &e, "more than 0");
-  refused(sbr_character_hold_vertex(w, c, 0, SBR_WHOLE_BODY, &hold, &e), &e, "vertex");
-  refused(sbr_character_hold_vertex(w, c, 0, 0, NULL, &e), &e, "NULL");
+  refused(sbr_character_grab_vertex(w, c, 0, SBR_WHOLE_BODY, &hold, &e), &e, "vertex");
+  refused(sbr_character_grab_vertex(w, c, 0, 0, NULL, &e), &e, "NULL");
   hold.target.x = (double)NAN;
-  refused(sbr_character_hold_vertex(w, c, 0, 0, &hold, &e), &e, "not a finite number");
+  refused(sbr_character_grab_vertex(w, c, 0, 0, &hold, &e), &e, "not a finite number");
   hold.target.x = 0, hold.damping_ratio = 11;
-  refused(sbr_character_hold_vertex(w, c, 0, 0, &hold, &e), &e, "damping_ratio");
+  refused(sbr_character_grab_vertex(w, c, 0, 0, &hold, &e), &e, "damping_ratio");
   ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++)
     ck_assert_int_eq(sbr_character_apply_soft_force(w, c, 0, 0, one, 5, &e), SBF_OK);

@@ -21,7 +21,7 @@ static scene make(float young_pa, float poisson, sbf_scheme scheme) {
   return s;
 }
 
-/* ---- Energy of what falls ---- */
+/* ---- Energy of falling bodies ---- */
 
 static const struct {
   sbf_scheme scheme;

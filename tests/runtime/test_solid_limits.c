@@ -128,7 +128,7 @@ START_TEST(yield_flows_as_specified)
   ck_assert_uint_ne(sbr_world_get_state_hash(s.world), hash);
   ck_assert_float_lt(sbr_character_get_body_health(s.world, s.character, 0).max_strain, 1e-5f);
   for (uint32_t i = 0; i < 4; i++)
-    sbri_positions(c)[i].x *= 1.3f; /* the rest shape is that of before again */
+    sbri_positions(c)[i].x *= 1.3f; /* the rest shape is the original one again */
   ck_assert_float_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).max_strain, 0.3f, 1e-4f);
   scene_free(&s);
 }

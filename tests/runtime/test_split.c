@@ -196,7 +196,7 @@ START_TEST(the_skin_opens_and_follows)
   uint32_t open = 0;
   for (uint32_t q = 0; q < QUADS; q++) {
     open += torn[q];
-    for (uint32_t k = 0; k < 4 && !torn[q]; k++) { /* what is left is not stretched over the gap */
+    for (uint32_t k = 0; k < 4 && !torn[q]; k++) { /* remaining polygons do not span the gap */
       uint32_t a = mesh->polygon_points.at[4 * q + k], b = mesh->polygon_points.at[4 * q + (k + 1) % 4];
       double now = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[a]), sbfi_d3_of(positions[b])));
       double rest =

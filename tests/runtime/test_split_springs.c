@@ -153,7 +153,7 @@ START_TEST(a_point_between_two_halves_splits)
 }
 END_TEST
 
-/* A rope hangs on itself at each of its points, and a spring alone holds what it holds. */
+/* A rope is connected to itself at each of its points, and single springs carry the load. */
 START_TEST(parts_never_connected_stay_separate)
 {
   enum { LINKS = 8 };

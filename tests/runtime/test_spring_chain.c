@@ -186,7 +186,7 @@ START_TEST(relative_to_a_center_its_motion_does_not_swing_it)
 }
 END_TEST
 
-/* Distance of a point from where a collider lets it be; below 0: it is where it may not be. */
+/* Signed distance of a point from the collider; below 0: penetration. */
 static float clearance_of(const sbf_chain_collider *c, sbf_vec3 p, float radius) {
   sbf_vec3 offset = sbri_sub(p, c->position), axis = sbri_sub(c->end, c->position);
   if (c->shape == SBF_CHAIN_COLLIDER_SHAPE_PLANE)

@@ -69,7 +69,7 @@ START_TEST(strings_only_pull)
 }
 END_TEST
 
-/* Springs that bear the body's weight where it was authored do so too where they are pressed. */
+/* Springs that support the body's weight in the authored shape also do so in compression. */
 START_TEST(a_weight_is_supported_by_contact_impulses)
 {
   static const float ratio = 0.25f;

@@ -80,7 +80,7 @@ END_TEST
 
 START_TEST(an_inverted_body_recovers)
 {
-  scene s = scene_begin(); /* nothing holds it: its springs are at rest inside out as well */
+  scene s = scene_begin(); /* no pins: its springs are also at rest when inverted */
   scene_bone(&s, (sbf_vec3){0, 0.5f, 0});
   scene_section(&s, 0, (sbf_vec3){0, 0.5f, 0}, (sbf_vec3){0.3f, 0.2f, 0.5f}, 2);
   s.model_options.free = true;

@@ -175,7 +175,7 @@ START_TEST(a_hanging_chain_stretches_by_its_weight)
 }
 END_TEST
 
-/* The same chain let go from level: no energy may come of it, and its links stay together. */
+/* The same chain released from level: it gains no energy, and its links stay connected. */
 START_TEST(a_pendulum_chain_swings_without_gain)
 {
   enum { LINKS = 10 };
@@ -258,7 +258,7 @@ START_TEST(a_damped_body_in_free_flight_stays_at_rest)
 }
 END_TEST
 
-/* The bound that saves the exact speed is never below it: points that fly apart, all alike, or mostly alike.
+/* The bound on the speed is never below the exact speed: points that fly apart equally or almost equally.
  */
 START_TEST(the_bound_on_impact_speed_is_respected)
 {

@@ -173,7 +173,7 @@ START_TEST(the_watched_strains_are_recorded)
   sbri_compute_tetrahedron_forces(&tick, &watch);
   ck_assert_float_eq_tol(sbri_watch_stiffening(&watch), 1, 1e-4f);
   ck_assert_float_eq_tol(sbri_watch_min_ratio(&watch), 1, 1e-4f);
-  /* Grown alike by a half: cof F grows by 2.25, and lambda (J - 1) - mu beyond the mu of rest. */
+  /* Uniformly scaled by 1.5: cof F grows by 2.25, and lambda (J - 1) - mu beyond the mu of rest. */
   for (uint32_t i = 0; i < tick.island->slot_count; i++)
     positions[i] = (sbri_point){1.5f * positions[i].x, 1.5f * positions[i].y, 1.5f * positions[i].z, 0};
   sbfi_lame lame = sbfi_lame_of(5e4, 0.4);

@@ -109,7 +109,7 @@ START_TEST(a_cloth_is_pulled_in_two)
 END_TEST
 
 /* The same cloth carries a skin of its own, four times as fine, each vertex by the three points around it:
- * the polygons over the gap are named, and what is left is nowhere stretched across it. */
+ * the polygons over the gap are reported, and no other polygon spans it. */
 START_TEST(a_skin_on_torn_springs_opens)
 {
   enum { FINE = 4 * CELLS, VERTICES = (FINE + 1) * (FINE + 1), FINE_QUADS = FINE * FINE };

@@ -153,7 +153,7 @@ START_TEST(the_chain_rests_on_the_ground)
   for (int k = 0; k < BONES; k++) {
     sbf_vec3 p = s.pose[k].position, normal;
     float ground = (float)s.ground.height(&s.ground, (double)p.x, (double)p.z, &normal);
-    ck_assert_float_eq_tol(p.y - ground, 0.1f, 0.06f); /* its head is held level */
+    ck_assert_float_eq_tol(p.y - ground, 0.1f, 0.06f); /* its head stays level */
   }
   gait_stage_end(&s);
 }
@@ -183,7 +183,7 @@ START_TEST(empty_links_have_no_length)
 }
 END_TEST
 
-/* From the same bends, whatever the tick: exp(-damping t) of each is left. */
+/* From the same bends, at any tick: each decays by exp(-damping t). */
 START_TEST(straightening_takes_the_same_time_at_any_tick)
 {
   float left[3];

@@ -1,4 +1,4 @@
-/* What is chosen of a front, for each kind of goal, and the closest where nothing keeps it. */
+/* The choice from a front for each kind of goal, and the nearest entry if no entry meets it. */
 #include "tune/goal.h"
 
 #include "harness.h"

@@ -45,7 +45,7 @@ START_TEST(test_embeddings)
       "EMBEDDING_SUM /sbf/soft_body[1]/level[1]/embedding[1]/weights #3", "");
   ck_assert(asset->soft_bodies.at[0].levels.at[0].embeddings.at[0].weights.at[3].x == 1);
   sbf_asset_free(asset);
-  /* divided by their sum these would carry the vertex elsewhere: what they mean is not known */
+  /* divided by their sum these would move the vertex: their meaning is unknown */
   sbf_asset_free(rules_expect_fix(EMBEDDED("3 0 1 2" WEIGHTS "0.5 0 0.2 0"), "",
       "EMBEDDING_SUM /sbf/soft_body[1]/level[1]/embedding[1]/weights #3"));
 }

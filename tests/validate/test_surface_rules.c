@@ -6,7 +6,7 @@ START_TEST(test_a_closed_surface_is_good)
 {
   rules_expect(BODY(TETRA), "");
   rules_expect(
-      BODY(SURFACE(TETRA_POINTS, "3 3 3 3", "2 1 0 3 0 1 2 0 3 3 1 2")), ""); /* whatever the first corner */
+      BODY(SURFACE(TETRA_POINTS, "3 3 3 3", "2 1 0 3 0 1 2 0 3 3 1 2")), ""); /* with any first corner */
 }
 END_TEST
 

@@ -137,7 +137,7 @@ START_TEST(test_invalid_samples)
 }
 END_TEST
 
-/* --- what is left out, and what is passed over --- */
+/* --- omitted and ignored parts --- */
 
 START_TEST(test_newer_minor_version)
 {
@@ -153,7 +153,7 @@ START_TEST(test_newer_minor_version)
           &error);
   ck_assert_msg(asset != NULL, "%s", error.message);
   ck_assert_uint_eq(asset->bones.count, 1);
-  ck_assert_str_eq(asset->version, SBF_FORMAT_VERSION); /* what it holds is no more than that */
+  ck_assert_str_eq(asset->version, SBF_FORMAT_VERSION); /* it has no parts of a newer version */
   sbf_asset_free(asset);
 }
 END_TEST
@@ -401,7 +401,8 @@ START_TEST(test_memory_of_the_parser_runs_out)
   ck_assert_int_eq(xmlMemSetup(free, parser_malloc, parser_realloc, parser_strdup), 0);
   sbf_asset *expected, *asset;
   sbf_diagnostic error = {0};
-  ck_assert_int_eq(sbf_xml_load_memory(text, size, NULL, &expected, &error), SBF_OK); /* what is made once */
+  ck_assert_int_eq(
+      sbf_xml_load_memory(text, size, NULL, &expected, &error), SBF_OK); /* the expected result */
   for (size_t allowed = 0;; allowed++) {
     parser_calls = 0;
     parser_allowed = allowed;

@@ -131,7 +131,7 @@ START_TEST(test_siblings_of_several_names)
   ck_assert_uint_eq(o.findings.count, 2);
   expect(&o, 0, SBF_CODE_VALUE_OUT_OF_RANGE, 5, "/sbf/joints/revolute_joint[1]/@break_force", -1);
   expect(&o, 1, SBF_CODE_VALUE_OUT_OF_RANGE, 6, "/sbf/joints/fixed_joint[2]/@break_force", -1);
-  /* the reader itself numbers them alike */
+  /* the reader numbers them in the same way */
   samples_expect("<sbf version=\"1.0\">\n"
                  "<rigid_bodies><rigid_body id=\"r\"/></rigid_bodies>\n"
                  "<joints>\n"

@@ -220,11 +220,11 @@ export interface DetailOptions {
   /** What a visit takes on this machine; 6. */
   nsPerVisit?: number;
   /** A coarser detail level is taken where its error is below this share of errorPx; 0.7. */
-  settle?: number;
+  coarsenFraction?: number;
   /** And no sooner after the last change, s; 0.5. */
   stay?: number;
   /** Unseen for so long it goes away, s; negative: never; 1. */
-  awayAfter?: number;
+  offscreenAfter?: number;
 }
 export interface View {
   eye: Vector;
@@ -269,7 +269,7 @@ export interface CharacterOptions {
   heading?: number;
   scale?: number;
   /** Bones stay in their rest pose. */
-  hold?: boolean;
+  holdPose?: boolean;
 }
 
 /** Triangles over vertices with one normal and one place in the texture each. */
@@ -324,7 +324,7 @@ export interface Character {
   nearestVertex(softBody: number, position: Vector): number;
   /** Draws a vertex to a target by a damped spring, until it is released; again to move the target. `frequency` in Hz (0: 5),
    * `maxForce` in N (0: 20 times the body's weight). */
-  hold(softBody: number, vertex: number, target: Vector, options?: { frequency?: number; maxForce?: number }): void;
+  grab(softBody: number, vertex: number, target: Vector, options?: { frequency?: number; maxForce?: number }): void;
   /** False where it was not held. */
   release(softBody: number, vertex: number): boolean;
   /** An impulse in N s at a vertex, or (-1) on the whole body. */
@@ -332,7 +332,7 @@ export interface Character {
   /** A force in N for so many seconds at a vertex, or (-1) on the whole body. */
   applySoftForce(softBody: number, force: Vector, seconds: number, vertex?: number): void;
   /** N on a held vertex, mean of the last tick. */
-  holdForce(softBody: number, vertex: number): number[];
+  grabForce(softBody: number, vertex: number): number[];
   /** What each pin set exerts on the body: N, and N m about `about` (m relative to the origin). -1: not a bone, not a rigid body. */
   pinReactions(softBody: number): { pinSet: number; bone: number; rigidBody: number; points: number; about: number[]; force: number[]; torque: number[] }[];
   /** Cauchy stress in Pa (xx, yy, zz, xy, yz, zx), J/m^3, m^3 and points of each tetrahedron of the simulated level. */

@@ -67,7 +67,7 @@ export class Hands extends Stage {
     const { held } = this;
     if (!held?.pulled) return;
     if (held.finger) return held.finger.move(held.target);
-    if (held.vertex !== undefined) return this.character.hold(held.softBody, held.vertex, held.target);
+    if (held.vertex !== undefined) return this.character.grab(held.softBody, held.vertex, held.target);
     if (this.character.posture !== 'falling') this.character.fall();
     const state = this.character.rigidState(held.rigid);
     const place = vector.add(vector.add(this.character.origin, state.position), vector.turn(state.rotation, held.local));

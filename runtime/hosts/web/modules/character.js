@@ -13,7 +13,7 @@ export class Character {
     const c = world.calls;
     Object.assign(this, { world, model, sbfmt: world.sbfmt, calls: c, meshes: new Map() });
     this.id = c.web_character_create(world.handle, model.handle, ...triple(options.position, 'position', [0, 0, 0]),
-      number(options.heading, 'heading', 0), number(options.scale, 'scale', 1), options.hold ? 1 : 0);
+      number(options.heading, 'heading', 0), number(options.scale, 'scale', 1), options.holdPose ? 1 : 0);
     if (!this.id) throw this.sbfmt.failure();
     world.use(this);
     model.use(this);
@@ -92,8 +92,8 @@ export class Character {
     const found = this.calls.web_character_nearest_vertex(this.home, this.id, this.ofSoft(softBody), ...triple(position, 'position')) >>> 0;
     return found === WHOLE_BODY ? -1 : found;
   }
-  hold(softBody, vertex, target, { frequency = 0, maxForce = 0 } = {}) {
-    this.done(this.calls.web_character_hold(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), ...triple(target, 'target'),
+  grab(softBody, vertex, target, { frequency = 0, maxForce = 0 } = {}) {
+    this.done(this.calls.web_character_grab(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), ...triple(target, 'target'),
       number(frequency, 'frequency'), number(maxForce, 'maxForce')));
   }
   release(softBody, vertex) {
@@ -107,9 +107,9 @@ export class Character {
     this.done(this.calls.web_character_soft_force(this.home, this.id, this.ofSoft(softBody), vertex === -1 ? WHOLE_BODY : number(vertex, 'vertex'),
       ...triple(force, 'force'), number(seconds, 'seconds')));
   }
-  holdForce(softBody, vertex) {
+  grabForce(softBody, vertex) {
     const { scratch } = this.sbfmt;
-    this.calls.web_character_hold_force(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), scratch);
+    this.calls.web_character_get_grab_force(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), scratch);
     return Array.from(this.sbfmt.floats(scratch, 3));
   }
   /** What a call that fills a list of `numbers` numbers each gives, one array each: floats and the same bits as integers. */

@@ -87,8 +87,8 @@ export class World extends Lent {
 
   /** From now on it chooses the detail levels of characters that are put on none. */
   detail(options = {}) {
-    const { errorPx, budget, nsPerVisit, settle, stay, awayAfter } = options, { scratch } = this.sbfmt;
-    this.sbfmt.floats(scratch, 6).set([errorPx, budget, nsPerVisit, settle, stay, awayAfter].map((one) => number(one, 'a setting', NaN)));
+    const { errorPx, budget, nsPerVisit, coarsenFraction, stay, offscreenAfter } = options, { scratch } = this.sbfmt;
+    this.sbfmt.floats(scratch, 6).set([errorPx, budget, nsPerVisit, coarsenFraction, stay, offscreenAfter].map((one) => number(one, 'a setting', NaN)));
     if (!this.calls.web_world_detail(this.handle, scratch)) throw this.sbfmt.failure();
   }
   views(views) {
