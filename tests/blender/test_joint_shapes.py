@@ -93,7 +93,7 @@ class Scene(fixtures.SceneTest):
         one.owner_space, one.use_limit_x, one.min_x, one.max_x = "LOCAL", True, -0.3, 0.6
         self.assertIn("swing_z", joints.collect(bpy.context))
 
-    def test_only_what_is_selected(self):
+    def test_only_selected_objects(self):
         self.joint(kind="revolute", axis="X", use_twist=True)
         self.scene.soft_body_format.show_joints = "SELECTED"
         bpy.context.view_layer.objects.active = self.rig

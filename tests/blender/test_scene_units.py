@@ -19,7 +19,7 @@ class OtherUnits(fixtures.SceneTest):
     def extent(self, positions):
         return [max(positions[k::3]) - min(positions[k::3]) for k in range(3)]
 
-    def test_lengths_are_in_metres_whatever_the_unit(self):
+    def test_lengths_are_in_metres_for_any_unit(self):
         for system, length, size in (("METRIC", 0.01, 100), ("METRIC", 1, 1), ("IMPERIAL", 0.3048, 1 / 0.3048), ("NONE", 0.01, 1)):
             with self.subTest(system=system, length=length):
                 self.scene = fixtures.fresh_scene()

@@ -94,7 +94,7 @@ static void count_off(void *user, const sbf_diagnostic *diagnostic) {
 }
 
 /* One calibration for all that are equal, one more for the cube that is not. */
-START_TEST(copies_share_one_calibration)
+START_TEST(copies_have_one_calibration)
 {
   enum { BODIES = 12, OTHER = 7 };
   for (uint32_t i = 0; i < BODIES; i++) {
@@ -142,7 +142,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_copy_elsewhere_is_found);
   tcase_add_loop_test(c, different_bodies_are_not_equal, 0, CHANGES);
   tcase_add_loop_test(c, pinned_bodies_equal_no_other, BONE, CHANGES);
-  tcase_add_test(c, copies_share_one_calibration);
+  tcase_add_test(c, copies_have_one_calibration);
   suite_add_tcase(s, c);
   return s;
 }

@@ -87,7 +87,7 @@ START_TEST(an_open_tube_is_as_good)
 END_TEST
 
 /* Every triangle with corners of its own, in one place: the same weights; drawn in from its sides: nearly. */
-START_TEST(triangles_may_be_apart)
+START_TEST(triangles_may_be_separate)
 {
   make_arm(60, false);
   compute_tubes();
@@ -293,7 +293,7 @@ START_TEST(a_rim_follows_the_bone_behind_it)
 END_TEST
 
 /* A pad of its own before the joint of a limb, which is nearer than the trunk that carries it. */
-START_TEST(a_pad_before_a_joint_follows_the_carrier)
+START_TEST(a_pad_before_a_joint_follows_its_limb)
 {
   const sbfi_d3 trunk[] = {{0, 0, 0}, {0, 2, 0}}, arm[] = {{0.6, 1, 0}, {1.6, 1, 0}};
   const sbfi_d3 pad[] = {{0.4, 1, 0}, {0.58, 1, 0}};
@@ -554,7 +554,7 @@ static Suite *suite(void) {
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, bones_of_a_chain_divide_a_tube);
   tcase_add_test(c, an_open_tube_is_as_good);
-  tcase_add_test(c, triangles_may_be_apart);
+  tcase_add_test(c, triangles_may_be_separate);
   tcase_add_test(c, distance_runs_through_the_body);
   tcase_add_test(c, legs_close_together);
   tcase_add_test(c, thick_parts_reach_farther);
@@ -564,7 +564,7 @@ static Suite *suite(void) {
   tcase_add_test(c, frames_and_controls_get_no_weights);
   tcase_add_test(c, a_thick_limb_keeps_its_shoulder);
   tcase_add_test(c, a_rim_follows_the_bone_behind_it);
-  tcase_add_test(c, a_pad_before_a_joint_follows_the_carrier);
+  tcase_add_test(c, a_pad_before_a_joint_follows_its_limb);
   tcase_add_test(c, skin_around_a_joint_follows_its_limb);
   tcase_add_test(c, bones_deep_in_a_body_are_idle);
   tcase_add_test(c, the_heel_follows_the_foot);

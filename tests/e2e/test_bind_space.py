@@ -113,7 +113,7 @@ class FilesOfBlender(ProgramTest):
                 self.assertLess(min(gaps), 2e-3)
 
     @needs_node
-    def test_three_draws_what_blender_drew(self):
+    def test_three_and_blender_draw_the_same(self):
         for file, expected in self.made.items():
             with self.subTest(file):
                 path = os.path.join(self.class_folder.name, file)

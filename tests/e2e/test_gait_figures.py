@@ -57,7 +57,7 @@ class Gait(ProgramTest):
             self.skipTest("shared/zoo is not there")
         self.faster_is_farther(*spider)
 
-    def test_slow_feet_stand_most_of_the_time(self):
+    def test_slow_feet_are_mainly_planted(self):
         report = measure(self.file, self.walks["flat, 0.1"], self.leg)
         for leg in report["rhythm"].values():
             self.assertGreaterEqual(leg["duty"], 0.75)

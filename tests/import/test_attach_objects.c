@@ -45,7 +45,7 @@ static int32_t carrier(const converted *c, const char *object) {
   return bone;
 }
 
-START_TEST(objects_that_touch_the_skin_follow_its_bone)
+START_TEST(objects_in_contact_with_the_skin_follow_its_bone)
 {
   loose_scene s;
   converted c;
@@ -63,7 +63,7 @@ START_TEST(objects_that_touch_the_skin_follow_its_bone)
 END_TEST
 
 /* In any order. */
-START_TEST(objects_that_touch_attached_objects_follow_them)
+START_TEST(objects_in_contact_with_attached_objects_follow_them)
 {
   loose_scene s;
   converted c;
@@ -97,8 +97,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("attach_objects");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, objects_that_touch_the_skin_follow_its_bone);
-  tcase_add_test(tests, objects_that_touch_attached_objects_follow_them);
+  tcase_add_test(tests, objects_in_contact_with_the_skin_follow_its_bone);
+  tcase_add_test(tests, objects_in_contact_with_attached_objects_follow_them);
   tcase_add_test(tests, objects_without_contact_stay_unattached);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

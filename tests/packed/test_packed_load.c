@@ -280,7 +280,7 @@ START_TEST(test_checksum_of_a_chunk_is_checked_on_request)
 END_TEST
 
 /* The header decides on the fields; a record that states an earlier version is of the header's. */
-START_TEST(test_the_version_is_at_least_that_of_the_header)
+START_TEST(test_the_version_is_not_below_the_headers)
 {
   sbf_asset *asset = small_asset(), *loaded;
   asset->version = "1.2";
@@ -554,7 +554,7 @@ int main(void) {
   tcase_add_loop_test(tests, test_damage_never_breaks_the_promise, 0, 8);
   tcase_add_test(tests, test_random_damage_of_a_filled_asset);
   tcase_add_test(tests, test_checksum_of_a_chunk_is_checked_on_request);
-  tcase_add_test(tests, test_the_version_is_at_least_that_of_the_header);
+  tcase_add_test(tests, test_the_version_is_not_below_the_headers);
   tcase_add_test(tests, test_numbers_of_a_mapped_list_are_checked);
   tcase_add_test(tests, test_every_failed_allocation_frees_everything);
   tcase_add_test(tests, test_limits_at_and_past);

@@ -188,7 +188,7 @@ class Binary(ModuleTest):
             found = getattr(mirrored, member).offset if member else ctypes.sizeof(mirrored)
             self.assertEqual(found, int(number), name)
 
-    def test_without_a_library_the_message_says_what_to_do(self):
+    def test_a_missing_library_gives_a_remedy(self):
         environment = {**os.environ, "SBFMT_LIBRARY": self.path("none"), "PYTHONPATH": MODULE}
         done = subprocess.run([sys.executable, "-B", "-c", "import sbfmt; sbfmt.library_path()"], env=environment,
                               capture_output=True, text=True, check=False)

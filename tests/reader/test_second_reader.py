@@ -76,7 +76,7 @@ class Samples(Comparison):
                 else:
                     self.assertEqual(second(path)[0], 1)
 
-    def test_the_program_prints_what_the_module_reads(self):
+    def test_the_program_prints_the_content_read_by_the_module(self):
         for name in ("valid/everything.sbf", "valid/jelly.sbf", "invalid/bone_before_parent.sbf"):
             path = os.path.join(SAMPLES, *name.split("/"))
             self.assertEqual(second_as_a_program(path), second(path), name)

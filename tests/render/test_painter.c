@@ -186,7 +186,7 @@ START_TEST(image_repeats_and_is_multiplied)
 }
 END_TEST
 
-START_TEST(veil_has_no_image)
+START_TEST(xray_mesh_has_no_image)
 {
   static uint8_t plain[sizeof rgb];
   draw_image *image = four_colours();
@@ -201,7 +201,7 @@ START_TEST(veil_has_no_image)
 }
 END_TEST
 
-START_TEST(deep_inside_a_veil_is_dimmer)
+START_TEST(deep_inside_an_xray_mesh_is_dimmer)
 {
   draw_colour red = draw_colour_rgb(0xe00000);
   add_square(0, 0, 1, 0.9f, 0x20c020, DRAW_XRAY);
@@ -348,8 +348,8 @@ int main(void) {
   tcase_add_test(tests, image_is_upright);
   tcase_add_test(tests, images_stay_on_their_meshes);
   tcase_add_test(tests, image_repeats_and_is_multiplied);
-  tcase_add_test(tests, veil_has_no_image);
-  tcase_add_test(tests, deep_inside_a_veil_is_dimmer);
+  tcase_add_test(tests, xray_mesh_has_no_image);
+  tcase_add_test(tests, deep_inside_an_xray_mesh_is_dimmer);
   tcase_add_loop_test(tests, marks_are_drawn_over_objects, 0, 2);
   tcase_add_test(tests, prints_lie_on_the_ground);
   tcase_add_test(tests, nearer_lines_are_over_farther);

@@ -114,7 +114,7 @@ START_TEST(any_stiffness_is_stable)
 }
 END_TEST
 
-START_TEST(points_of_a_block_share_no_element)
+START_TEST(points_of_a_block_have_no_common_element)
 {
   scene s = make_beam(1e6f, SBF_SCHEME_BLOCK_DESCENT, 0);
   const sbri_island *island = &s.model->islands[0];
@@ -203,7 +203,7 @@ int main(void) {
   tcase_add_test(c, it_hangs_at_the_minimum_of_energy);
   tcase_add_test(c, it_damps_as_implicit_euler_does);
   tcase_add_loop_test(c, any_stiffness_is_stable, 0, 2);
-  tcase_add_test(c, points_of_a_block_share_no_element);
+  tcase_add_test(c, points_of_a_block_have_no_common_element);
   tcase_add_test(c, every_lane_width_gives_the_same_bits);
   tcase_add_test(c, yielding_materials_are_refused);
   suite_add_tcase(s, c);

@@ -254,7 +254,7 @@ START_TEST(a_knee_rotates_with_the_bone_of_its_pole)
 }
 END_TEST
 
-START_TEST(knees_bend_both_ways_and_point_at_their_poles)
+START_TEST(knees_bend_in_both_directions_and_point_at_their_poles)
 {
   walk w;
   begin(&w, flat, 0);
@@ -311,7 +311,7 @@ START_TEST(the_same_speed_at_any_size)
 }
 END_TEST
 
-START_TEST(a_body_far_from_its_feet_places_them_again)
+START_TEST(a_body_far_from_its_feet_repositions_them)
 {
   walk w;
   begin(&w, flat, 0);
@@ -511,9 +511,9 @@ int main(void) {
   tcase_add_test(tests, tail_lags_and_overshoots);
   tcase_add_test(tests, the_head_leads_a_rotation_and_returns);
   tcase_add_test(tests, a_knee_rotates_with_the_bone_of_its_pole);
-  tcase_add_test(tests, knees_bend_both_ways_and_point_at_their_poles);
+  tcase_add_test(tests, knees_bend_in_both_directions_and_point_at_their_poles);
   tcase_add_test(tests, the_same_speed_at_any_size);
-  tcase_add_test(tests, a_body_far_from_its_feet_places_them_again);
+  tcase_add_test(tests, a_body_far_from_its_feet_repositions_them);
   tcase_add_test(tests, moving_the_origin_changes_nothing);
   tcase_add_test(tests, a_taller_copy_walks_at_the_same_speed);
   tcase_add_test(tests, nothing_jumps_where_headings_wrap_around);

@@ -141,7 +141,7 @@ START_TEST(the_reference_moves_at_all)
 }
 END_TEST
 
-START_TEST(held_points_drag_the_body_along)
+START_TEST(pinned_points_drag_the_body_along)
 {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 0, 0});
@@ -167,7 +167,7 @@ static Suite *suite(void) {
   tcase_add_test(c, the_reference_lizard_in_the_air);
   tcase_add_test(c, a_small_mesh);
   tcase_add_test(c, the_reference_moves_at_all);
-  tcase_add_test(c, held_points_drag_the_body_along);
+  tcase_add_test(c, pinned_points_drag_the_body_along);
   suite_add_tcase(s, c);
   return s;
 }

@@ -144,7 +144,7 @@ START_TEST(loaded_characters_accept_clips)
 }
 END_TEST
 
-START_TEST(skeletons_that_share_nothing_are_refused)
+START_TEST(skeletons_without_common_bones_are_refused)
 {
   sbf_asset *q = quadruped_asset();
   sbf_diagnostic error;
@@ -166,7 +166,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, chains_of_one_name_carry_a_clip_to_other_bones);
   tcase_add_test(tests, loaded_characters_accept_clips);
-  tcase_add_test(tests, skeletons_that_share_nothing_are_refused);
+  tcase_add_test(tests, skeletons_without_common_bones_are_refused);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -99,7 +99,7 @@ START_TEST(the_drive_fraction_scales_the_drive)
 END_TEST
 
 /* Each arm as if the others had the same share. */
-START_TEST(shares_are_of_one_bone_each)
+START_TEST(fractions_belong_to_one_bone_each)
 {
   static const float fractions[ARMS] = {0, 1, 0.3f};
   scene mixed = arms_sharing(fractions);
@@ -258,7 +258,7 @@ static float max_change(float damped_rad_s) {
 }
 
 /* Whatever its share goes to, and however fast: nothing turns at once. */
-START_TEST(shares_change_without_a_jump)
+START_TEST(fractions_change_without_a_jump)
 {
   scene s = arms();
   scene_start(&s);
@@ -303,11 +303,11 @@ int main(void) {
   Suite *suite = suite_create("rigid_share");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, the_drive_fraction_scales_the_drive, 0, 5);
-  tcase_add_test(tests, shares_are_of_one_bone_each);
+  tcase_add_test(tests, fractions_belong_to_one_bone_each);
   tcase_add_test(tests, a_zero_drive_fraction_gives_a_ragdoll);
   tcase_add_test(tests, a_small_drive_fraction_is_nearly_a_ragdoll);
   tcase_add_test(tests, driven_bodies_follow_the_animation);
-  tcase_add_test(tests, shares_change_without_a_jump);
+  tcase_add_test(tests, fractions_change_without_a_jump);
   tcase_add_loop_test(tests, released_bodies_keep_their_velocity, 0, 2);
   tcase_add_test(tests, settings_without_their_cookie_change_nothing);
   suite_add_tcase(suite, tests);

@@ -135,7 +135,7 @@ START_TEST(snapshots_and_sleep)
 END_TEST
 
 /* Twice the size falls as a body of that size does: the same shape after sqrt 2 times as long. */
-START_TEST(a_larger_person_falls_the_same_way)
+START_TEST(a_larger_person_falls_equally)
 {
   sbr_joint_state small, large;
   for (int i = 0; i < 2; i++) {
@@ -232,7 +232,7 @@ int main(void) {
   tcase_add_test(tests, drives_keep_the_pose);
   tcase_add_test(tests, modes_change_in_motion);
   tcase_add_test(tests, snapshots_and_sleep);
-  tcase_add_test(tests, a_larger_person_falls_the_same_way);
+  tcase_add_test(tests, a_larger_person_falls_equally);
   tcase_add_test(tests, invalid_impulses_are_ignored);
   tcase_add_test(tests, definitions_begin_with_the_default);
   tcase_add_test(tests, bodies_and_joints_are_found_by_name);

@@ -21,7 +21,7 @@ START_TEST(an_error_goal_selects_the_cheapest_within_it)
 }
 END_TEST
 
-START_TEST(a_budget_selects_the_most_accurate_within_it)
+START_TEST(a_budget_selects_the_best_accuracy_within_it)
 {
   ck_assert_uint_eq(choose(0, 1000, TUNE_MET), 3);
   ck_assert_uint_eq(choose(0, 24, TUNE_MET), 2);
@@ -55,7 +55,7 @@ int main(void) {
   Suite *suite = suite_create("goal");
   TCase *c = tcase_create("goal");
   tcase_add_test(c, an_error_goal_selects_the_cheapest_within_it);
-  tcase_add_test(c, a_budget_selects_the_most_accurate_within_it);
+  tcase_add_test(c, a_budget_selects_the_best_accuracy_within_it);
   tcase_add_test(c, without_a_goal_it_is_the_nearest_of_all);
   tcase_add_test(c, error_and_budget_are_kept_if_possible);
   tcase_add_test(c, unreachable_targets_are_reported_with_the_closest);

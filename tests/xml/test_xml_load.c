@@ -177,7 +177,7 @@ START_TEST(test_ignored_syntax)
 }
 END_TEST
 
-START_TEST(test_bodies_may_stand_apart)
+START_TEST(test_bodies_may_be_separate)
 {
   sbf_diagnostic error;
   sbf_asset *asset = samples_load(
@@ -454,7 +454,7 @@ int main(void) {
   tcase_add_test(all, test_invalid_samples);
   tcase_add_test(all, test_newer_minor_version);
   tcase_add_test(all, test_ignored_syntax);
-  tcase_add_test(all, test_bodies_may_stand_apart);
+  tcase_add_test(all, test_bodies_may_be_separate);
   tcase_add_test(all, test_limits);
   tcase_add_test(all, test_long_lists_and_texts);
   tcase_add_test(all, test_lists_in_memory);
