@@ -1,12 +1,11 @@
-/* Lattices: tetrahedra a second of the whole pass from a converted surface to a level with its embeddings
- * (inside test, stuffing, embedding, no calibration; the build's own bookkeeping, as the hash of the source,
- * counts too), by number of tetrahedra; the least and the greatest dihedral angle, how much of the surface's
- * volume it holds, how far vertices lie outside, and the memory it takes.
+/* Measures the making of lattices by number of tetrahedra, from a converted surface to a level with
+ * embeddings (inside test, stuffing, embedding, and the rest of a build, without calibration): tetrahedra per
+ * second, smallest and largest dihedral angle, fraction of the surface's volume in the lattice, largest
+ * distance of vertices outside it, and memory.
  *
- * Beside it, where it is installed, the program tetgen on the same surface with its quality bounds and the
- * volume that the lattice's tetrahedra have on average: the seconds that it says it takes for all but its
- * files, and its own count. It keeps the surface's polygons, which a lattice does not, and takes no surface
- * that is open or crosses itself. */
+ * If the program tetgen is installed, it meshes the same surface with its quality bounds and the mean volume
+ * of our tetrahedra. Its time is the one that it prints, without its files. It keeps the polygons of the
+ * surface, which a lattice does not, and refuses surfaces that are open or intersect themselves. */
 #define _DEFAULT_SOURCE /* mkstemps */
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* The page of `sbfmt export -o PAGE.html`: a character to look at, to walk about, to drag and to throw balls at.
- * Keys and pointer steer; what is pressed, shown and chosen stands in the panel of viewer.html. */
+ * Keys and pointer steer; buttons and settings are in the panel of viewer.html. */
 import { load } from './sbfmt.js';
 import { ball, boneShapes, vector } from './viewer_draw.js';
 import { listenForFiles } from './viewer_files.js';
@@ -9,7 +9,7 @@ const element = (id) => document.getElementById(id);
 const SPRINGS = 0b011111, LATTICE = 0b100000;
 const DETAIL_NAMES = { jiggle: 'springy bones', bones: 'bones alone' };
 const FRAME = 1 / 60;
-/** Physics may take so much of a frame, in ms or as a share of the frame before; what time it then has not covered is let go: slow motion. */
+/** Maximum time of physics in a frame, in ms or as a fraction of the previous frame; time beyond it is dropped: slow motion. */
 const PHYSICS_MS = 10, PHYSICS_SHARE = 0.35, LONGEST_FRAME = 0.25;
 const TURNS = { ArrowLeft: [-0.06, 0], ArrowRight: [0.06, 0], ArrowUp: [0, 0.05], ArrowDown: [0, -0.05] };
 
@@ -135,7 +135,7 @@ class Viewer extends Hands {
     this.painter.drawMesh(this.ballMesh, [{ color: [0.80, 0.16, 0.10, 1], roughness: 0.35 }], one.place);
   }
 
-  /** The ground about what is looked at, made anew when that has gone on. */
+  /** The ground around the camera's subject, made again after the subject has moved on. */
   layGround() {
     const half = this.size * 9, cells = 120, [x, , z] = this.camera.focus, made = this.groundMesh;
     if (made && Math.hypot(made.x - x, made.z - z) < half * 0.12) return;
@@ -210,7 +210,7 @@ class Viewer extends Hands {
     listenForFiles(this, element, tellTrouble);
   }
 
-  /** A button that walks while it is held, by a finger or by the keyboard. */
+  /** A button that walks while it is pressed, by touch or by keyboard. */
   listenToPad(button) {
     const { code } = button.dataset, press = () => this.keys.add(code), lift = () => this.keys.delete(code);
     button.addEventListener('pointerdown', (event) => {
@@ -248,7 +248,7 @@ class Viewer extends Hands {
     element(id).disabled = levels.length + more.length < 2;
   }
 
-  /** Of what is inside only that can be shown which this character has at its level. */
+  /** Enables the switches of inner parts that this character has at its level. */
   offerInside() {
     const lines = this.character.lines(), kinds = new Set();
     for (let at = 3; at < lines.length; at += 10) kinds.add(lines[at]);

@@ -28,7 +28,7 @@ export class Hands extends Stage {
     this.character.drive(drive.forward * speed, drive.turn * 0.9, drive.sideways * speed);
   }
 
-  /** Takes hold of what lies under the pointer; false where that is nothing. */
+  /** Grabs the object under the pointer; false if there is none. */
   grab(x, y) {
     const way = this.wayThrough(x, y), hit = this.world.ray(this.eye, way, this.camera.distance * 4);
     if (!hit || !hit.character) return false;
@@ -62,7 +62,7 @@ export class Hands extends Stage {
     this.held = undefined;
   }
 
-  /** Draws what is held towards the pointer, strongly enough to lift all of it. */
+  /** Pulls the grabbed object towards the pointer, with enough force to lift it. */
   pull(seconds) {
     const { held } = this;
     if (!held?.pulled) return;
