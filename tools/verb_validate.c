@@ -115,7 +115,7 @@ typedef struct repaired {
   checked left;
 } repaired;
 
-/* What a load mends is a repair. */
+/* Repairs made during the load count as repairs. */
 static void take_loading(void *user, const sbf_diagnostic *diagnostic) {
   repaired *m = user;
   findings_add(diagnostic->code == SBF_CODE_GLTF_RENUMBERED ? &m->done : &m->left.found, diagnostic);

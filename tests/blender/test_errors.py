@@ -118,7 +118,7 @@ class Scene(fixtures.SceneTest):
         rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0), ("neck", "hip", (0, 0, 1), (0, 0, 2), 0),
                                         ("head", "neck", (0, 0, 2), (0, 0, 3), 0)])
         fixtures.hang(fixtures.box("belly"), rig, "head")
-        self.assertEqual([one for one in findings_of() if "no section" in one.message], [])  # what is above all that moves it
+        self.assertEqual([one for one in findings_of() if "no section" in one.message], [])  # the message about the body above it only
         fixtures.hang(fixtures.box("seat"), rig, "hip")
         found = [one for one in findings_of() if "no section" in one.message]
         self.assertEqual([(one.object_name, one.bone_name) for one in found], [("rig", "neck")])

@@ -1,4 +1,4 @@
-"""Real files, converted: imported and exported again they are equal. Whatever is odd in them must neither be lost nor stop Blender."""
+"""Real files, converted: imported and exported again they are equal. Unusual content must neither be lost nor stop Blender."""
 
 import glob
 import os

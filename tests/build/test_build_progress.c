@@ -80,7 +80,7 @@ START_TEST(tetrahedra_and_their_levels)
   sbf_build_options options = {
       .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 400, .without_calibration = true};
   ck_assert_int_ge(end_everywhere(asset, HARNESS_FEW(1, 5), options), 30);
-  /* What it is compared with takes long: here it is ended while that is made, and while it is loaded. */
+  /* The reference takes long: cancels while it is made, and while it is loaded. */
   options.without_calibration = false;
   options.levels = 3;
   ck_assert_int_ge(end_everywhere(asset, HARNESS_FEW(40, 200), options), 60);

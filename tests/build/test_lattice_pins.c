@@ -1,4 +1,4 @@
-/* What holds a body, at the points of any of its levels: the author's list, and all that is inside a hull. */
+/* Pins of a body at the points of any of its levels: authored lists, and all points inside a hull. */
 #include "build/lattice/lattice_pins.h"
 
 #include <math.h>

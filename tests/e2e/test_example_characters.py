@@ -12,7 +12,7 @@ from bundle_file import Bundle
 from motion_files import PointCache, read_poses, rotated
 from sbfmt_program import PROGRAM, ROOT, ProgramTest, main
 
-# legs; what is allowed at half a leg length a second: change of a knee's speed (degrees), slip (m)
+# legs; limits at half a leg length a second: change of a knee's speed (degrees), slip (m)
 WALKERS = {"pup": (4, 5, 0.0015), "yeti": (2, 5, 0.001), "spider": (8, 5, 0.002), "caterpillar": (14, 12, 0.0005)}
 # kind of gait, bones of the wave from the head to the tail, driven as fast as `walk_speed`
 WAVES = {"snake": ("slither", 19), "koi": ("swim", 9), "dragon": ("swim", 18)}

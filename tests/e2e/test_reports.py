@@ -149,7 +149,7 @@ class Calls(ProgramTest):
 class Fixes(ProgramTest):
     """--fix mends every sample of a fault that has one right answer, and leaves the others as they are."""
 
-    # What is left to find in the file written, where that is not nothing.
+    # Findings that remain in the written file, if there are any.
     LEFT = {"tetrahedron_flat": {"LATTICE_POINT_UNUSED"}}
     REPAIRED = ("tetrahedron_inverted", "tetrahedron_flat", "tetrahedron_duplicate", "surface_winding",
               "surface_inside_out", "point_unused", "mesh_point_unused", "spring_same_point", "spring_inert",

@@ -202,7 +202,7 @@ class Run(ProgramTest):
         self.assert_empty_folder(but=["a.pc2", "b.csv"])
 
     def test_a_pipe_is_written_to_and_not_replaced(self):
-        """What holds for it holds for a device, as in `--pose /dev/null` by root."""
+        """The same is true for a device, as in `--pose /dev/null` by root."""
         pipe, printed = self.path("pipe"), []
         os.mkfifo(pipe)
         reader = threading.Thread(target=lambda: printed.append(read_bytes(pipe)))

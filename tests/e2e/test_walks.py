@@ -8,7 +8,7 @@ import unittest
 from sbfmt_program import ROOT, ProgramTest, convert_once, example, liz, main, needs_lizard, shared
 from walks import all_walks, failures, leg_of, measure, straight
 
-# What is not met, and how far off it is.
+# Criteria that are not met, with the measured values.
 EXAMPLE = {}
 THESIS = {}
 

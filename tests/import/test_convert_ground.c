@@ -92,7 +92,7 @@ START_TEST(objects_that_do_not_walk_are_not_moved)
 }
 END_TEST
 
-/* Clips go along, unless they have the character on the ground already. */
+/* Clips are moved too, unless they already have the character on the ground. */
 START_TEST(clips_move_with_the_skeleton)
 {
   static const float times[2] = {0, 1};

@@ -253,7 +253,7 @@ static const char everything[] =
     "mtllib a.mtl\no one\ng left\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nusemtl m\n"
     "f 1/1/1 2/1/1 \\\n 3/1/1 4/1/1\ng right\nv 1 1 0 # late\nusemtl n\nf -1 -2 -3\nl 1 2\n";
 
-/* Whatever is cut off, the reader ends and gives an answer. */
+/* The reader terminates with a result for any truncated file. */
 START_TEST(cut_off_at_every_byte)
 {
   for (size_t size = 0; size < sizeof everything; size++) {

@@ -24,7 +24,7 @@ static uint32_t leg_named(const sbf_asset *a, const char *name) {
   return 0;
 }
 
-/* What holds of every proposal. */
+/* Checks that every proposal passes. */
 static void check_proposal(const sbf_asset *a) {
   const sbf_gait *gait = gait_of(a);
   ck_assert(gait->proposed);

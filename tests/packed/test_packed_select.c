@@ -124,7 +124,7 @@ START_TEST(test_members_left_empty_select_all)
 }
 END_TEST
 
-/* What is left out may be damaged: it is not looked at. */
+/* Unselected chunks may be damaged: they are not read. */
 START_TEST(test_unselected_chunks_are_not_read)
 {
   sbf_buffer file = small_file(false);

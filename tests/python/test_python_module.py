@@ -196,7 +196,7 @@ class Binary(ModuleTest):
         self.assertIn("ImportError", done.stderr)
 
     def fault(self, content):
-        """What is said of a library that is such a file; None: of none."""
+        """The message for a library with such a file; None: for a missing library."""
         folder = self.path("lib")
         os.makedirs(folder, exist_ok=True)
         if content is not None:

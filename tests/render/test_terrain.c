@@ -52,7 +52,7 @@ START_TEST(stairs_stay_sharp)
 }
 END_TEST
 
-/* What is near stays where it is when the middle moves on: else the ground would swim. */
+/* Nearby vertices keep their positions when the centre moves: otherwise the ground would appear to move. */
 START_TEST(grid_lines_keep_their_positions)
 {
   draw_scene *scene = draw_scene_create();

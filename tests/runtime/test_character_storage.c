@@ -6,7 +6,7 @@
 #include "host_threads.h"
 #include "rigid_person.h"
 
-/* What is left is given back after a second. */
+/* Unused memory is freed after a second. */
 enum { KEPT = 61, CROWD = 12 };
 
 static size_t bytes_of(const scene *s, uint32_t detail_level) {

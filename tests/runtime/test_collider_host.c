@@ -110,7 +110,7 @@ START_TEST(boxes_conserve_momentum)
 }
 END_TEST
 
-/* What lies on it pushes with its weight, of any size, and goes on when it sleeps. */
+/* Bodies at rest on it press with their weight, at any size, and also while they sleep. */
 START_TEST(resting_bodies_press_with_their_weight)
 {
   scene s = scene_begin();

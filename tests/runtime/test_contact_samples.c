@@ -168,7 +168,7 @@ START_TEST(a_contact_impulse_acts_at_its_sample)
   solve(&tick, body_of(&s), &rule);
   sbf_vec3 after_v = velocity_of(&tick, sample);
   momenta after = momenta_of(&tick, position);
-  /* What falls in stops, and friction takes no more sideways than its share of that. */
+  /* A falling sample stops, and friction changes the sideways velocity by at most its fraction of that. */
   float gain = sbri_dot(contact.normal, sbri_sub(after_v, before_v));
   ck_assert_float_eq_tol(sbri_dot(contact.normal, after_v), 0, 1e-4f);
   ck_assert_float_eq_tol(gain, -sbri_dot(contact.normal, before_v), 1e-4f);

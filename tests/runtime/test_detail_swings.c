@@ -9,7 +9,7 @@
 /* A screen of 1080, 60 degrees high. */
 static const float LINES = 1080, HEIGHT_RAD = 1.0471976f;
 
-/* What it is made to do: goes to and fro; stops short; is struck from below; turns to and fro; walks. */
+/* Motions: to and fro; a sudden stop; a hit from below; rotation to and fro; a walk. */
 enum { SHAKEN, STOPPED, KNOCKED, TURNED, MOTIONS, CALM = MOTIONS, TURNS_TICKS = 14 };
 
 static void shake(scene *s, int motion, int tick) {
@@ -116,7 +116,7 @@ static double pixels_of(double distance) {
   return (double)LINES / (2 * tan((double)HEIGHT_RAD / 2) * (distance - 0.45));
 }
 
-/* What it is driven by instead in the very tick of a change; the first: by what it is made to do. */
+/* Drives that replace the motion in the tick of a change; the first: the motion itself. */
 static const float elsewhere[][2] = {{0, 0}, {0, 0}, {4, 0}, {-4, 0}, {0.5f, 0}, {0, 6}, {0, -6}};
 enum { ELSEWHERE = sizeof elsewhere / sizeof *elsewhere };
 

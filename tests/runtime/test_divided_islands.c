@@ -70,7 +70,7 @@ START_TEST(any_number_of_threads_gives_the_same_bits)
 }
 END_TEST
 
-/* ---- What is divided ---- */
+/* ---- Divided islands ---- */
 
 /* One thread that counts the batches of more than one task. */
 static void run_and_count(void *user, sbr_task *task, void *context, uint32_t count) {

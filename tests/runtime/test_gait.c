@@ -462,7 +462,7 @@ START_TEST(steps_are_quicker_at_higher_speed)
 }
 END_TEST
 
-/* Bones that share a leg's twist, a guard on its shin: no part of what is solved, but of what moves. */
+/* Twist bones of a leg and a guard on its shin: not solved, but moved with the leg. */
 START_TEST(children_of_a_leg_follow_it)
 {
   enum { PLAIN = 20, ALL = 22 };

@@ -268,7 +268,7 @@ START_TEST(a_soft_cube_rests)
 }
 END_TEST
 
-/* What touches push with goes on from a snapshot as it would have without. */
+/* Contact impulses continue from a snapshot as without it. */
 START_TEST(snapshots_store_contact_impulses)
 {
   scene s = contact_scene_begin(weight);
@@ -323,7 +323,7 @@ START_TEST(soft_cubes_of_two_characters_conserve_momentum)
 }
 END_TEST
 
-/* What lies in each other at rest stays as it is; what the filters part passes through. */
+/* Overlaps at rest stay; bodies excluded by filters pass through each other. */
 START_TEST(overlap_at_rest_causes_no_impulses)
 {
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});

@@ -84,7 +84,7 @@ typedef struct kind {
   bool hung;           /* the first box holds nothing of the surface */
   sbf_pressure_mode pressure;
   float pa, limit, yield, tear, goal, damping, times;
-  float keeps_m; /* the surface meets itself, at that thickness or at 0.9 of what it is apart at rest */
+  float keeps_m; /* the surface collides with itself, at that thickness or at 0.9 of its separation at rest */
   float box_kg;  /* 0: BOX_KG */
   sbf_scheme scheme;
   double linear, angular; /* that may be lost or gained, as shares; 0: LINEAR and ANGULAR */

@@ -76,7 +76,7 @@ START_TEST(replays_end_in_the_same_state)
   ck_assert_uint_ge(replay.checks, 3);
   ck_assert(!replay.differs);
   ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
-  /* What is played can be recorded, and is the same. */
+  /* A replay can be recorded, with an equal result. */
   sbr_world_set_recording(s.world, NULL);
   ck_assert_uint_eq(again.size, t.size);
   ck_assert_mem_eq(again.bytes, t.bytes, t.size);

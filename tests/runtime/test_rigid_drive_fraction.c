@@ -257,7 +257,7 @@ static float max_change(float damped_rad_s) {
   return (KG * G * REACH_M * (1 + drive.strength) / about_end + drive.joint_damping_1_s * damped_rad_s) / 60;
 }
 
-/* Whatever its share goes to, and however fast: nothing turns at once. */
+/* At any change of the drive fraction no body rotates suddenly. */
 START_TEST(fractions_change_without_a_jump)
 {
   scene s = arms();

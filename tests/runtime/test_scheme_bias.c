@@ -33,7 +33,7 @@ typedef struct row {
   /* Bounds of the shares by which it may be off, by models; the period of SWING, and of both spins the
    * greater of momentum and angular momentum; negative: it does not run that. */
   double within[CASE_COUNT][MODEL_COUNT];
-  double damping[MODEL_COUNT]; /* bound of what it adds to SWING, as a ratio */
+  double damping[MODEL_COUNT]; /* bound of the damping added to SWING, as a ratio */
 } row;
 
 static const row rows[] = {
@@ -204,7 +204,7 @@ static double rest_bias(elastic model, const row *r, question q) {
 
 /* ---- Motion ---- */
 
-/* The bar let go from a slight bend: period and damping ratio of that motion. */
+/* The bar is released from a slight bend: period and damping ratio of the motion. */
 static double swing_period(elastic model, const row *r, double *damping) {
   enum { TICKS = 240 };
   static sbf_vec3 positions[MAX_POINTS], shape[MAX_POINTS];

@@ -65,7 +65,7 @@ static scene cloth(sbf_scheme scheme, float stiffness, bool sorted) {
   return s;
 }
 
-/* The same in the others, but with what they can be stepped with: 24 substeps of explicit schemes. */
+/* The same in the other schemes with suitable steps: 24 substeps of explicit schemes. */
 START_TEST(springs_listed_from_the_pins_on_do_not_burst)
 {
   bool stiff = schemes[_i] == SBF_SCHEME_AUTOMATIC || schemes[_i] == SBF_SCHEME_POSITION_BASED ||

@@ -53,7 +53,7 @@ START_TEST(falling_bodies_gain_no_energy)
 }
 END_TEST
 
-/* ---- What is softened ---- */
+/* ---- Softening ---- */
 
 START_TEST(softening_stops_at_the_budget)
 {
@@ -101,7 +101,7 @@ START_TEST(a_sliver_does_not_soften_its_neighbours)
 }
 END_TEST
 
-/* What is asked for is done, or refused. */
+/* Requests are fulfilled or refused. */
 START_TEST(requested_schemes_keep_the_moduli)
 {
   scene s = make(1e12f, 0.3f, SBF_SCHEME_SYMPLECTIC);

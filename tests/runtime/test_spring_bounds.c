@@ -60,7 +60,7 @@ START_TEST(a_limit_is_a_wall)
 }
 END_TEST
 
-/* What is within its limits moves as if it had none; what rests at one does not move. */
+/* Springs within their limits move as without limits; springs at rest at a limit do not move. */
 START_TEST(a_limit_changes_nothing_within_its_bound)
 {
   uint64_t hashes[2];

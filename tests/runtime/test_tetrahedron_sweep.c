@@ -252,7 +252,7 @@ START_TEST(its_damping_removes_energy)
 }
 END_TEST
 
-/* ---- What is hard ---- */
+/* ---- Hard cases ---- */
 
 /* Flattened to a plane, mirrored, all in one place, thrown into a heap: no number is lost, and after a second
  * the shape is back, by itself or by being put there. */
