@@ -128,11 +128,11 @@ void soft_character_make(soft_character *one) {
       if (kept.bytes && sbr_world_restore_snapshot(one->world, kept.bytes, kept.size) == SBF_OK) {
         one->placement.is_placed = true;
         one->loose.frame = frame;
-        if (s->ground == SOFT_GROUND_PHYSICS) physics_ground_query(one);
+        if (one->settings.collision.ground == SOFT_GROUND_PHYSICS) physics_ground_query(one);
       } else {
         free(one->clip_player);
         one->clip_player = NULL;
-        one->placement.is_placed = s->ground == SOFT_GROUND_FLAT;
+        one->placement.is_placed = one->settings.collision.ground == SOFT_GROUND_FLAT;
       }
       clip_player_remade(one);
       soft_character_drive(one);
