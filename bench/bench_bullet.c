@@ -1,23 +1,21 @@
-/* Soft bodies beside Bullet's: the same points, masses and elements, swung for half a second from rest (the
- * cloth and the beam of tetrahedra for a sixth), at equal counts and at equal error.
+/* Compares soft bodies with Bullet's: equal points, masses and elements, released from rest for half a second
+ * (the cloth and the beam of tetrahedra for a sixth), with equal counts of steps and with equal error.
  *
- * Bodies: `cloth` (200 x 200 points at two corners), `beam` (10 x 10 x 50 cells held at one end) and
- * `armadillo` (a lattice of ours, held above nine tenths of its height), the latter two once as springs along
- * the edges and once as tetrahedra; `lizard`, ours, and `liz`, the reference one where it is there: springs
- * of all sections, held where the bones hold them, in one body for Bullet. Nothing touches anything, nothing
- * is damped.
+ * Bodies: `cloth` (200 x 200 points pinned at two corners), `beam` (10 x 10 x 50 cells pinned at one end) and
+ * `armadillo` (a lattice pinned above nine tenths of its height); beam and armadillo once as springs along
+ * the edges and once as tetrahedra. `lizard` is our example, `liz` the reference lizard if its file exists:
+ * the springs of all sections with their pins, in one body for Bullet. There are no contacts and no damping.
  *
- * `steps` divide a tick of 1/60 s, `iterations` go over all elements in each: `us` is a tick's processor
- * time, the least of the rounds of the mean over that time; `ns` that over elements, steps and
- * iterations. `error_mm` is the root of the mean square, over points and ticks, of the distance from
- * symplectic steps four times as many as are stable; empty where the body did not keep within its size.
- * `ours_us` is the cheapest row of ours on that body that is no farther off, and `times` how many times as
- * much this one takes.
+ * `steps` divide a tick of 1/60 s; each step makes `iterations` over all elements. `us` is the processor time
+ * of a tick: the mean over the run, minimum of the rounds. `ns` is the same per element, step and iteration.
+ * `error_mm` is the root mean square distance, over points and ticks, from symplectic steps with four times
+ * the stable number; empty if the body left its bounds. `ours_us` is our cheapest row on that body with at
+ * most that error; `times` is the time of this row over it.
  *
- * Bullet's links have a share of their error corrected, without a unit. `fitted` gives all the one share that
- * leaves the least error, found by search; `implicit` gives each the share that makes the step an implicit
- * one of its own spring: what ours does, and the best that can be made of it. Bullet's deformable body has
- * the same energy for small strains but not the same where they are large: see docs/benchmarks.md. */
+ * Bullet corrects a fraction of the error of a link, a number without a unit. `fitted` uses one fraction for
+ * all links, found by a search for the minimum error. `implicit` gives each link the fraction that makes the
+ * step implicit for its own spring, as in our scheme; no choice is better. Bullet's deformable body has
+ * the same energy for small strains only: see docs/benchmarks.md. */
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -160,7 +158,7 @@ static double run_ours(const scene *s, method *w, sbf_vec3 *track) {
   sbr_character_definition standing = sbr_default_character_definition();
   definition.ground = sbr_ground_flat(-1000);
   definition.sleep_after_s = 0;
-  standing.position.y = 1000, standing.hold = true;
+  standing.position.y = 1000, standing.hold_pose = true;
   bench_require(sbr_model_create(s->asset, &options, &model, &error), &error);
   bench_require(sbr_world_create(&definition, &world, &error), &error);
   bench_require(sbr_character_create(world, model, &standing, &id, &error), &error);

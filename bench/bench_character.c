@@ -68,7 +68,7 @@ static sbf_asset *make_mesh(void) {
   return asset;
 }
 
-/* What lies in the first twentieth is held. */
+/* Points in the first twentieth are pinned. */
 static void hold_end(sbf_asset *asset) {
   sbf_soft_body *body = (sbf_soft_body *)(uintptr_t)asset->soft_bodies.at;
   sbf_pin_set *pins = allocate(asset, 1, sizeof *pins);

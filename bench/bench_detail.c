@@ -162,8 +162,8 @@ int main(int argument_count, char **arguments) {
   open_species(
       &tetrahedra, source, &(sbf_build_options){.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .levels = 4});
   sbr_detail_definition stays = sbr_default_detail_definition(), goes = stays, spares = stays;
-  stays.away_after_s = -1;
-  spares.away_after_s = -1, spares.budget_us = 4000;
+  stays.offscreen_after_s = -1;
+  spares.offscreen_after_s = -1, spares.budget_us = 4000;
   static crowd c[CASES];
   open_crowd(&c[0], "full detail", &c[0], &springs, count, false, NULL);
   open_crowd(&c[1], "half a pixel", &c[0], &springs, count, false, &stays);

@@ -1,6 +1,6 @@
-/* Sizes of lattice elements: the list of a body's tetrahedra as XML, with its tags, and as the chunk of the
- * packed file, in bytes, for several cells. The whole bundles beside them. Of our lizard, whose sections get
- * a lattice each (their sums are shown), and of surfaces in ../shared/data, where that folder is there. */
+/* Measures the size of lattice elements in bytes for several cell sizes: a body's tetrahedra as XML, with
+ * tags, and as a chunk of the packed file; and the whole bundles. Bodies: our lizard, with a lattice for each
+ * section (sums are shown), and surfaces of ../shared/data if that folder exists. */
 #include <stdio.h>
 #include <string.h>
 

@@ -79,7 +79,7 @@ static sbf_vec3 turned(sbf_quat q, sbf_vec3 v) {
       v.z + q.w * t.z + u.x * t.y - u.y * t.x};
 }
 
-/* By how much the turn from a to b is beyond the cone about x, or its twist beyond what it may. */
+/* Violation of the cone limit about x, or of the twist limit, by the rotation from a to b. */
 static float beyond_limits(sbf_quat a, sbf_quat b) {
   sbf_quat r = {a.w * b.x - a.x * b.w - a.y * b.z + a.z * b.y, a.w * b.y + a.x * b.z - a.y * b.w - a.z * b.x,
       a.w * b.z - a.x * b.y + a.y * b.x - a.z * b.w, a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z};

@@ -1,12 +1,11 @@
-/* Lattices: tetrahedra a second of the whole pass from a converted surface to a level with its embeddings
- * (inside test, stuffing, embedding, no calibration; the build's own bookkeeping, as the hash of the source,
- * counts too), by number of tetrahedra; the least and the greatest dihedral angle, how much of the surface's
- * volume it holds, how far vertices lie outside, and the memory it takes.
+/* Measures the making of lattices by number of tetrahedra, from a converted surface to a level with
+ * embeddings (inside test, stuffing, embedding, and the rest of a build, without calibration): tetrahedra per
+ * second, smallest and largest dihedral angle, fraction of the surface's volume in the lattice, largest
+ * distance of vertices outside it, and memory.
  *
- * Beside it, where it is installed, the program tetgen on the same surface with its quality bounds and the
- * volume that the lattice's tetrahedra have on average: the seconds that it says it takes for all but its
- * files, and its own count. It keeps the surface's polygons, which a lattice does not, and takes no surface
- * that is open or crosses itself. */
+ * If the program tetgen is installed, it meshes the same surface with its quality bounds and the mean volume
+ * of our tetrahedra. Its time is the one that it prints, without its files. It keeps the polygons of the
+ * surface, which a lattice does not, and refuses surfaces that are open or intersect themselves. */
 #define _DEFAULT_SOURCE /* mkstemps */
 #include <math.h>
 #include <stdio.h>
@@ -55,7 +54,7 @@ static void append_mesh(sbf_asset *asset, sbf_polygon_mesh *to, const sbf_polygo
   to->polygon_points = (sbf_u32_list){all, corners + from->polygon_points.count};
 }
 
-/* A source of one body, whose surface is the render mesh's, of whatever a file holds. */
+/* A source of one body. Its surface is the render mesh of the file. */
 static sbf_asset *one_body_of(unsigned number) {
   sbf_asset *from = character_asset(surfaces[number].folder, surfaces[number].mesh, NULL, false);
   if (!from || from->soft_bodies.count == 0) return NULL;
@@ -166,7 +165,7 @@ static void measure_tetgen(unsigned number, const sbf_soft_body *body, const stu
   if (file < 0) bench_fail("no file can be made in /tmp");
   close(file);
   write_off(path, &body->surface);
-  if (!run_tetgen(path, s->report.lattice_volume / s->report.tetrahedra, &seconds, &count))
+  if (!run_tetgen(path, s->report.lattices.volume / s->report.lattices.tetrahedra, &seconds, &count))
     fprintf(stderr, "tetgen is not installed\n");
   else if (count == 0)
     bench_print_row("%s,tetgen,,1,,,,,,,,,", surfaces[number].mesh);
@@ -205,12 +204,13 @@ static void measure(unsigned number, uint32_t elements, uint32_t rounds, bool be
   snprintf(size, sizeof size, "%.17g", s.cell);
   char volume[24] = "";
   if (surface.opening < 1e-3)
-    snprintf(volume, sizeof volume, "%.4f", s.report.lattice_volume / fabs(surface.volume));
+    snprintf(volume, sizeof volume, "%.4f", s.report.lattices.volume / fabs(surface.volume));
   process_memory memory = process_memory_of((const char *const[]){name, size, NULL});
   bench_print_row("%s,sbfmt,%u,%u,%.2f,%.2f,%.2f,%.0f,%.1f,%.1f,%s,%.3g,%zu", surfaces[number].mesh,
-      s.report.tetrahedra, rounds, of_pass.min * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
-      s.report.tetrahedra / of_pass.median, s.report.min_dihedral_deg, s.report.max_dihedral_deg, volume,
-      s.report.farthest_m / s.cell, memory.peak_bytes / 1024);
+      s.report.lattices.tetrahedra, rounds, of_pass.min * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
+      s.report.lattices.tetrahedra / of_pass.median, s.report.lattices.min_dihedral_deg,
+      s.report.lattices.max_dihedral_deg, volume, s.report.lattices.farthest_m / s.cell,
+      memory.peak_bytes / 1024);
   if (beside && surfaces[number].closed) measure_tetgen(number, body, &s);
   sbf_asset_free(source);
 }

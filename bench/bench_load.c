@@ -1,10 +1,9 @@
-/* Loading: time and memory of each form of an asset, with all checks, beside what assimp takes for the same
- * geometry as GLB and OBJ (nothing but its import: no post-processing), and libxml2's own tree of the same
- * XML.
+/* Measures loading: time and memory of each form of an asset, with all checks. References: assimp's import of
+ * the same geometry as GLB and OBJ, without post-processing, and libxml2's tree of the same XML.
  *
- * Files are in the page cache. `times_glb` is how many times faster a row is than assimp on the GLB, median
- * against median. `lizard` also holds a rig and what it is simulated with, of which GLB and OBJ have nothing;
- * `lizard-meshes` is as much as they have. */
+ * Files are in the page cache. `times_glb` is assimp's median time for the GLB over the median of the row.
+ * `lizard` also contains a rig and simulation data, which GLB and OBJ do not have; `lizard-meshes` has the
+ * content of those only. */
 #define _POSIX_C_SOURCE 200809L
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
@@ -27,7 +26,7 @@ static const char *const endings[FORM_COUNT] = {"xml.sbf", "zlib.sbfz", "stored.
 
 /* ---- Ways to load ---- */
 
-/* One way to load one file, and what it holds while it is loaded. */
+/* One method to load one file, and the memory in use while it is loaded. */
 typedef struct loading {
   char path[PATH_SIZE];
   sbf_load_options options;

@@ -1,10 +1,10 @@
-/* Sizes of a character's bundle in each form: of our lizard, of the surface that bench_load loads, and of
- * every file of ../shared/data that converts, where that folder is there.
+/* Measures the size of a character's bundle in each form: our lizard, the surface of bench_load, and every
+ * convertible file of ../shared/data if that folder exists.
  *
- * `xml`, `gzip` (of the XML, as `gzip -6` makes it), `packed` (zlib) and `stored` hold the whole bundle as
- * `convert` makes it, springs, pins, hulls and embeddings included. `meshes` is the packed form of the render
- * meshes alone and `glb` a GLB of the same: positions, normals, texture coordinates, triangles for its
- * polygons. All in bytes; the last three columns are quotients. */
+ * `xml`, `gzip` (of the XML, by `gzip -6`), `packed` (zlib) and `stored` contain the whole bundle of
+ * `convert` with springs, pins, hulls and embeddings. `meshes` is the packed form of the render meshes only,
+ * and `glb` a GLB of them: positions, normals, texture coordinates, and triangles for the polygons. All are
+ * in bytes; the last three columns are ratios. */
 #define _XOPEN_SOURCE 700
 #include <ftw.h>
 #include <stdio.h>

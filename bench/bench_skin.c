@@ -1,5 +1,5 @@
-/* What a frame's skin costs at each render level: positions and normals of the vertices that the level uses.
- * Characters in ../shared/data where that folder is there, else our lizard alone. */
+/* Measures the cost of a frame's skin at each render level: positions and normals of the vertices of the
+ * level. Characters of ../shared/data if that folder exists, else our lizard only. */
 #include <stdlib.h>
 
 #include "measured_assets.h"

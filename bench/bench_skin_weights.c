@@ -1,11 +1,12 @@
-/* Skin weights computed from bones alone, against those that artists painted: both skins in the file's own
- * poses. Errors are in % of the longest side of the mesh: rms over points and poses, the 95th percentile, and
- * the share of points and poses over 2 %. Wrong side: points of which a tenth more follows bones of the other
- * side than with the artist. Gait: whether kind and legs that are proposed stay the same.
+/* Compares skin weights computed from bones only with the original weights: both skins in the poses of the
+ * file. Errors are in % of the longest side of the mesh: root mean square over points and poses, 95th
+ * percentile, and the fraction of points and poses above 2 %. Wrong side: points with a tenth more weight on
+ * bones of the other side than the original. Gait: whether the proposed kind and legs are the same.
  *
- * Characters of examples/, whose weights a formula gave (examples/modelling/skin_files.py), then of
- * ../shared/zoo and ../shared/data where they are there, which artists painted: a summary of all, and one of
- * those alone. At last a mesh of 60,000 points with 60 bones, for its time. `--quick`: examples alone. */
+ * Characters: examples/, whose weights come from a formula (examples/modelling/skin_files.py), then
+ * ../shared/zoo and ../shared/data if they exist, with weights painted by artists. Summaries: all characters,
+ * and the painted ones. Last, a mesh of 60,000 points with 60 bones, for its time. `--quick`: examples only.
+ */
 #include <glob.h>
 #include <math.h>
 #include <stdlib.h>

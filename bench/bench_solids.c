@@ -1,15 +1,14 @@
-/* Lattices of tetrahedra: nanoseconds for each tetrahedron and substep, microseconds for a frame of 1/60 s,
- * by size.
+/* Measures lattices of tetrahedra by size: nanoseconds per tetrahedron and substep, microseconds per frame of
+ * 1/60 s.
  *
- * A beam of 1 x 0.2 x 0.2 m and 10 kPa, held at one end, sags under a twentieth of gravity: cells of six
- * tetrahedra, from 10 x 2 x 2 to 160 x 32 x 32. It runs with the substeps it needs and with twice as many;
- * the difference is what substeps cost, everything in them included: forces of the elements, weight, damping,
- * ground, held points. `ns_per_element` is that over the elements; `slope` is the exponent of the cost of a
- * substep against the number of elements, from the row before: 1 is in proportion. `frame_us` is a whole
- * control tick with the substeps that it needs.
+ * A beam of 1 x 0.2 x 0.2 m and 10 kPa, pinned at one end, sags under a twentieth of gravity. Its cells have
+ * six tetrahedra each, from 10 x 2 x 2 to 160 x 32 x 32. It runs with the required number of substeps and
+ * with twice as many; the difference is the full cost of the substeps: element forces, weight, damping,
+ * ground, pins. `ns_per_element` is that per element. `slope` is the exponent of the cost of a substep
+ * against the number of elements, relative to the previous row; 1: proportional. `frame_us` is a whole
+ * control tick with the required substeps.
  *
- * Times are the least of many ticks, each of which repeats in several runs. Two runs must end in the same
- * state. */
+ * Times are the minimum of many ticks, each repeated in several runs. Two runs must end in the same state. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

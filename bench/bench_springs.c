@@ -1,12 +1,11 @@
-/* What fills a concave body with springs: every method of `--springs` on a C and on the armadillo's arm, held
- * at one end, under small gravity, beside a lattice of 20,000 tetrahedra of the same matter (Poisson's ratio
- * a quarter, which is what springs show).
+/* Compares the methods of `--springs` that fill a concave body with springs: on a C and on the arm of the
+ * armadillo, pinned at one end, under small gravity. The reference is a lattice of 20,000 tetrahedra of the
+ * same material, with Poisson's ratio 1/4, the value of spring networks.
  *
- * For each: points and springs; how many of those inside leave the body; how unlike they are (the stiffness
- * above which there is a twentieth of them over that below which there is a twentieth); how far the free
- * surface falls, as a share of the reference, and how far its shape is off, as a share of the reference's
- * fall (root of the mean squares, over the three axes); and the substeps of a tick of 1/60 s that an explicit
- * scheme needs at 100 kPa. */
+ * Columns for each method: points and springs; number of inner springs that leave the body; spread of
+ * stiffness (the 95th percentile over the 5th); sag of the free surface relative to the reference; error of
+ * its shape relative to the reference's sag (root mean square over the three axes); and the substeps per tick
+ * of 1/60 s that an explicit scheme needs at 100 kPa. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -126,7 +125,7 @@ static sbf_asset *make_c(void) {
 }
 
 /* The left forearm of the armadillo, its triangles beyond x = 4.5 m, in a tenth of its size; the hole where
- * it was cut is closed by a fan, whose rim is held. NULL where the armadillo is absent. */
+ * it was cut is closed by a fan with a pinned rim. NULL without the armadillo. */
 static sbf_asset *make_arm(void) {
   sbf_asset *whole = character_asset(SHARED_FOLDER "/armadillo", "armadillo_25k.obj", NULL, false);
   if (!whole) return NULL;

@@ -295,7 +295,7 @@ static void measure_rest(void) {
 
 /* ---- Pictures ---- */
 
-/* Adds a mesh of the same faces with its points elsewhere; slot: what it is made of. */
+/* Adds a mesh with the same faces and other points; slot: its material. */
 static void add_mesh(sbf_asset *to, sbf_render_mesh *mesh, const char *id, const sbf_polygon_mesh *like,
     const sbf_vec3 *at, sbf_vec3 shift, const sbf_material_slot *slot) {
   sbf_vec3 *points = sbf_asset_allocate(to, like->positions.count, sizeof *points);

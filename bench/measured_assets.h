@@ -13,7 +13,7 @@ enum { SURFACE_CELLS = 316 }; /* 100,489 points, 99,856 quads */
  * it; without derived parts where `build` is false. NULL where the folder has no such mesh. */
 sbf_asset *character_asset(const char *folder, const char *mesh, const char *rig, bool build);
 
-/* Its render meshes and nothing else: the geometry that GLB and OBJ have. Frees what it is given. */
+/* A copy with render meshes only: the geometry that GLB and OBJ have. Frees its argument. */
 sbf_asset *meshes_alone(sbf_asset *asset);
 
 /* The lizard of examples/. */

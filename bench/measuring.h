@@ -41,7 +41,8 @@ void bench_print_columns(const char *columns);
 void bench_print_row(const char *format, ...);
 
 /* Whether an argument of main is `--quick`: every case once or so, to see that the program works. Takes note
- * of `--once` as well: every row with what no machine changes, its times of one round, no other engines. */
+ * of `--once` as well: every row with the figures that do not depend on the machine, times of one round, no
+ * other engines. */
 bool bench_is_quick(int argument_count, char **arguments);
 /* Whether `--once` or `--quick` was given. */
 bool bench_runs_once(void);

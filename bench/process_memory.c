@@ -25,7 +25,7 @@ static size_t status_of(const char *name) {
   return kib * 1024;
 }
 
-/* Makes the peak begin anew. Where that is not allowed the peak so far is that of the start, near enough. */
+/* Resets the peak. Without permission to do so, the present peak is taken as the initial one. */
 static void reset_peak(void) {
   FILE *file = fopen("/proc/self/clear_refs", "w");
   if (!file) return;

@@ -63,12 +63,12 @@ static bool progress(void *user, const char *pass, double done) {
 
 static const float LEFT_OVER = 0.25f;
 
-static void print_lattices(const sbf_build_report *r) {
+static void print_lattices(const sbf_build_lattices *all) {
   printf("tetrahedra: %u, %.4g m^3, dihedral angles %.1f to %.1f degrees, vertices within %.3g m",
-      r->tetrahedra, r->lattice_volume, r->min_dihedral_deg, r->max_dihedral_deg, r->farthest_m);
-  if (r->thickened_points)
-    printf(
-        ", %u point%s thin parts", r->thickened_points, r->thickened_points == 1 ? " thickens" : "s thicken");
+      all->tetrahedra, all->volume, all->min_dihedral_deg, all->max_dihedral_deg, all->farthest_m);
+  if (all->thickened_points)
+    printf(", %u point%s thin parts", all->thickened_points,
+        all->thickened_points == 1 ? " thickens" : "s thicken");
   printf("\n");
 }
 
@@ -129,17 +129,18 @@ void building_print(const sbf_asset *built, const sbf_build_report *r) {
         r->embedded_vertices);
   else
     printf("%u embedded vertices\n", r->embedded_vertices);
-  if (r->tetrahedra) print_lattices(r);
-  if (r->calibrated)
+  if (r->lattices.tetrahedra) print_lattices(&r->lattices);
+  if (r->lattice_calibration.count)
     printf("calibrated %u lattice%s: modulus times %.3g to %.3g, displacement within %.3g %% of the "
            "reference under every load, frequency within %.3g %%\n",
-        r->calibrated, many(r->calibrated), r->min_factor, r->max_factor, 100 * r->max_residual,
-        100 * r->max_period_error);
-  if (r->calibrated_springs)
+        r->lattice_calibration.count, many(r->lattice_calibration.count), r->lattice_calibration.min_factor,
+        r->lattice_calibration.max_factor, 100 * r->lattice_calibration.max_residual,
+        100 * r->lattice_calibration.max_period_error);
+  if (r->spring_calibration.count)
     printf("calibrated the springs of %u level%s: stiffness times %.3g to %.3g, surfaces within %.3g %% of "
            "those of tetrahedra\n",
-        r->calibrated_springs, many(r->calibrated_springs), r->min_spring_factor, r->max_spring_factor,
-        100 * r->max_spring_residual);
+        r->spring_calibration.count, many(r->spring_calibration.count), r->spring_calibration.min_factor,
+        r->spring_calibration.max_factor, 100 * r->spring_calibration.max_residual);
   print_left_over(built);
   if (r->levels) printf("levels: %u coarser than the finest\n", r->levels);
   if (r->render_levels) printf("render levels: %u coarser than the full meshes\n", r->render_levels);

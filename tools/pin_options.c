@@ -9,8 +9,8 @@ static bool read_goal(const cli_call *call, sbf_convert_options *options) {
   if (!text) return true;
   double min = strtod(text, &end), max = *end == ',' ? strtod(end + 1, &end) : -1;
   if (end != text && !*end && min >= 0 && max > 0 && max <= 1 && min <= max) {
-    options->goal_minimum = min;
-    options->goal_maximum = max;
+    options->pinning.goal_minimum = min;
+    options->pinning.goal_maximum = max;
     return true;
   }
   cli_wrong(call, "--goal takes two numbers from 0 to 1, for example 0.2,0.7, not '%s'", text);
@@ -63,9 +63,10 @@ static bool read_attachments(const cli_call *call, pin_options *pins, sbf_conver
 }
 
 static bool read_shells(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
-  if (!read_names(call, "--shell", &pins->shells, &pins->shell_text, &options->shell_count)) return false;
-  options->shells = pins->shells;
-  for (uint32_t i = 0; i < options->shell_count; i++) {
+  if (!read_names(call, "--shell", &pins->shells, &pins->shell_text, &options->rigging.shell_count))
+    return false;
+  options->rigging.shells = pins->shells;
+  for (uint32_t i = 0; i < options->rigging.shell_count; i++) {
     if (pins->shells[i].bone && pins->shells[i].bone[0]) continue;
     cli_wrong(call,
         "--shell takes an object and the bone that moves it, for example --shell hat=head, not '%s'",
@@ -101,24 +102,25 @@ static bool read_bones(
 }
 
 static bool read_softness(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
-  bool good = cli_number(call, "--firmness", 1e-3, 1e3, &options->firmness) &&
-              read_bones(call, "--soft", &pins->soft, &pins->soft_text, &options->soft_count) &&
-              read_bones(call, "--rigid", &pins->rigid, &pins->rigid_text, &options->rigid_count);
-  options->soft = pins->soft;
-  options->rigid = pins->rigid;
+  bool good = cli_number(call, "--firmness", 1e-3, 1e3, &options->softness.firmness) &&
+              read_bones(call, "--soft", &pins->soft, &pins->soft_text, &options->softness.soft_count) &&
+              read_bones(call, "--rigid", &pins->rigid, &pins->rigid_text, &options->softness.rigid_count);
+  options->softness.soft = pins->soft;
+  options->softness.rigid = pins->rigid;
   return good;
 }
 
 bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
   *pins = (pin_options){.pins = NULL};
-  if (!read_names(call, "--pin", &pins->pins, &pins->text, &options->pin_count) ||
-      !read_names(call, "--hold", &pins->holds, &pins->pin_text, &options->hold_count) ||
+  if (!read_names(call, "--pin", &pins->pins, &pins->text, &options->pinning.pin_count) ||
+      !read_names(call, "--hold", &pins->holds, &pins->pin_text, &options->pinning.section_pin_count) ||
       !read_attachments(call, pins, options) || !read_shells(call, pins, options) ||
       !read_softness(call, pins, options))
     return false;
-  options->pins = pins->pins;
-  options->holds = pins->holds;
-  return read_goal(call, options) && cli_number(call, "--goal-stiffness", 0, 1e9, &options->goal_stiffness);
+  options->pinning.pins = pins->pins;
+  options->pinning.section_pins = pins->holds;
+  return read_goal(call, options) &&
+         cli_number(call, "--goal-stiffness", 0, 1e9, &options->pinning.goal_stiffness);
 }
 
 void pin_options_free(pin_options *pins) {

@@ -138,7 +138,7 @@ static void report(void *user, const sbf_diagnostic *diagnostic) {
 static sbf_status create_character(session *s, sbf_diagnostic *error) {
   sbr_character_definition character = sbr_default_character_definition();
   character.position.y = standing_lift(s->asset, &s->ground) + s->settings.raise;
-  character.hold = s->settings.hold;
+  character.hold_pose = s->settings.hold;
   return sbr_character_create(s->world, s->model, &character, &s->character, error);
 }
 

@@ -130,7 +130,7 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
   sbf_diagnostic error;
   sbf_convert_summary summary = {.source_count = 0};
   options->summary = &summary;
-  options->misfit = &misfit;
+  options->rigging.misfit = &misfit;
   sbf_status status = read_input(call, input, options, &asset, &error);
   if (status == SBF_OK && !materials_apply(call, asset)) {
     sbf_asset_free(asset);
@@ -252,7 +252,7 @@ static int run(cli_call *call) {
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
   options.keep_modulus = materials_of_all(call);
-  options.weights = cli_value(call, "--weights");
+  options.rigging.weights = cli_value(call, "--weights");
   if (cli_value(call, "--gait")) options.gait = kinds[kind];
   if (cli_value(call, "--up")) options.up = axes[up][0];
   if (cli_value(call, "--forward")) options.forward = fronts[front];

@@ -115,7 +115,7 @@ typedef struct repaired {
   checked left;
 } repaired;
 
-/* What a load mends is a repair. */
+/* Repairs made during the load count as repairs. */
 static void take_loading(void *user, const sbf_diagnostic *diagnostic) {
   repaired *m = user;
   findings_add(diagnostic->code == SBF_CODE_GLTF_RENUMBERED ? &m->done : &m->left.found, diagnostic);
@@ -123,7 +123,7 @@ static void take_loading(void *user, const sbf_diagnostic *diagnostic) {
 
 /* Loads a file even if its only errors can be repaired. */
 static sbf_status load_for_repair(const char *path, sbf_asset **asset, repaired *m) {
-  sbf_load_options loading = {.check_crc = true, .mendable = true, .report = take_loading, .user = m};
+  sbf_load_options loading = {.check_crc = true, .repairable = true, .report = take_loading, .user = m};
   checked *refused = &m->left;
   sbf_diagnostic error;
   sbf_status status = sbf_load_file(path, &loading, asset, &error);

@@ -75,7 +75,7 @@ const sbfmt = await load();
 function stage(text, gravity, options) {
   const asset = sbfmt.asset(packed(text)), model = asset.model({ ...options, gravity: [0, -gravity, 0] });
   const world = sbfmt.world({ ground: { kind: 'flat', height: -FAR }, gravity: [0, -gravity, 0], sleepAfter: 0 });
-  const character = world.add(model, { position: [0, FAR, 0], hold: true });
+  const character = world.add(model, { position: [0, FAR, 0], holdPose: true });
   const close = () => [world, model, asset].forEach((thing) => thing.free());
   return { world, model, character, close, step: () => world.step(FRAME_S) };
 }
@@ -101,7 +101,7 @@ function soft(body, setting) {
   return {
     step, close,
     substeps: model.substeps,
-    mass: character.softMotion(0).mass, // of what is not held
+    mass: character.softMotion(0).mass, // of the free points
     points() {
       const { positions } = character.skin(), { origin } = character;
       return Float64Array.from(vertices.flatMap((k) => [0, 1, 2].map((x) => positions[k + x] + origin[x])));

@@ -158,7 +158,7 @@ function takePointer(world, character, camera) {
   /** Before each step. */
   function pull() {
     if (!held?.target) return;
-    character.hold(held.softBody, held.vertex, held.target, { maxForce: PULL * character.softMotion(held.softBody).mass });
+    character.grab(held.softBody, held.vertex, held.target, { maxForce: PULL * character.softMotion(held.softBody).mass });
   }
   return hands;
 }

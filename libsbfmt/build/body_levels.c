@@ -71,13 +71,12 @@ static bool make_springs(sbfi_build *b, uint32_t number, sbf_build_interior inte
   return true;
 }
 
-static void add_quality(sbf_build_report *report, const sbf_lattice_measures *of) {
-  bool first = report->max_dihedral_deg == 0;
-  if (first || of->min_dihedral_deg < report->min_dihedral_deg)
-    report->min_dihedral_deg = of->min_dihedral_deg;
-  if (of->max_dihedral_deg > report->max_dihedral_deg) report->max_dihedral_deg = of->max_dihedral_deg;
-  for (int i = 0; i < SBF_DIHEDRAL_BINS; i++) report->dihedrals[i] += of->dihedrals[i];
-  report->lattice_volume += of->volume;
+static void add_quality(sbf_build_lattices *all, const sbf_lattice_measures *of) {
+  bool first = all->max_dihedral_deg == 0;
+  if (first || of->min_dihedral_deg < all->min_dihedral_deg) all->min_dihedral_deg = of->min_dihedral_deg;
+  if (of->max_dihedral_deg > all->max_dihedral_deg) all->max_dihedral_deg = of->max_dihedral_deg;
+  for (int i = 0; i < SBF_DIHEDRAL_BINS; i++) all->dihedrals[i] += of->dihedrals[i];
+  all->volume += of->volume;
 }
 
 static sbf_status outcome_status(sbfi_build *b, uint32_t number, sbfi_lattice_outcome outcome) {
@@ -97,21 +96,16 @@ static sbf_status outcome_status(sbfi_build *b, uint32_t number, sbfi_lattice_ou
   return SBF_OK;
 }
 
-static void record_calibration(sbfi_build *b, const sbfi_calibration *c) {
-  sbf_build_report *r = &b->report;
-  if (r->calibrated == 0 || c->min < r->min_factor) r->min_factor = c->min;
-  if (c->max > r->max_factor) r->max_factor = c->max;
-  if (c->residual > r->max_residual) r->max_residual = c->residual;
-  if (fabs(c->period_error) > r->max_period_error) r->max_period_error = fabs(c->period_error);
-  r->calibrated++;
+static void record_calibration(sbf_build_calibration *of, const sbfi_calibration *c) {
+  if (of->count == 0 || c->min < of->min_factor) of->min_factor = c->min;
+  if (c->max > of->max_factor) of->max_factor = c->max;
+  if (c->residual > of->max_residual) of->max_residual = c->residual;
+  of->count++;
 }
 
-static void record_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
-  sbf_build_report *r = &b->report;
-  if (r->calibrated_springs == 0 || c->min < r->min_spring_factor) r->min_spring_factor = c->min;
-  if (c->max > r->max_spring_factor) r->max_spring_factor = c->max;
-  if (c->residual > r->max_spring_residual) r->max_spring_residual = c->residual;
-  r->calibrated_springs++;
+static void record_lattice_calibration(sbf_build_calibration *of, const sbfi_calibration *c) {
+  record_calibration(of, c);
+  if (fabs(c->period_error) > of->max_period_error) of->max_period_error = fabs(c->period_error);
 }
 
 /* Builds the coarser levels of a body whose finest is complete, and assesses them. */
@@ -131,9 +125,9 @@ static sbf_status make_level_set(
   for (uint32_t l = 0; l < set->level_count; l++) {
     if (!set->levels[l].calibration) continue;
     if (set->levels[l].model == SBF_ELASTIC_MODEL_TETRAHEDRA)
-      record_calibration(b, &set->calibrations[l]);
+      record_lattice_calibration(&b->report.lattice_calibration, &set->calibrations[l]);
     else
-      record_spring_calibration(b, &set->calibrations[l]);
+      record_calibration(&b->report.spring_calibration, &set->calibrations[l]);
   }
   return SBF_OK;
 }
@@ -198,9 +192,9 @@ static sbf_status make_tetrahedra(
   findings->thinness = counts.thinness;
   findings->cell = (double)level->cell;
   set_only_level(b, number, level, counts.pins);
-  b->report.tetrahedra += counts.tetrahedra;
-  b->report.thickened_points += counts.thickened;
-  add_quality(&b->report, &counts.quality);
+  b->report.lattices.tetrahedra += counts.tetrahedra;
+  b->report.lattices.thickened_points += counts.thickened;
+  add_quality(&b->report.lattices, &counts.quality);
   return SBF_OK;
 }
 

@@ -189,7 +189,7 @@ static sbf_status embed(sbfi_build *b) {
           &report, sbfi_build_stretch(b, "embeddings", 0.6, 0.8), &b->scratch))
     return sbfi_build_no_memory(b);
   b->report.embedded_vertices = report.vertices;
-  b->report.farthest_m = report.farthest;
+  b->report.lattices.farthest_m = report.farthest;
   return SBF_OK;
 }
 

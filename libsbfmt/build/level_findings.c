@@ -41,11 +41,11 @@ void sbfi_level_counts_repeat(
     sbf_build_report *report, const sbf_build_report *before, const sbf_build_report *after) {
   report->bodies += after->bodies - before->bodies;
   report->levels += after->levels - before->levels;
-  report->tetrahedra += after->tetrahedra - before->tetrahedra;
-  report->thickened_points += after->thickened_points - before->thickened_points;
-  report->lattice_volume += after->lattice_volume - before->lattice_volume;
-  report->calibrated += after->calibrated - before->calibrated;
-  report->calibrated_springs += after->calibrated_springs - before->calibrated_springs;
+  report->lattices.tetrahedra += after->lattices.tetrahedra - before->lattices.tetrahedra;
+  report->lattices.thickened_points += after->lattices.thickened_points - before->lattices.thickened_points;
+  report->lattices.volume += after->lattices.volume - before->lattices.volume;
+  report->lattice_calibration.count += after->lattice_calibration.count - before->lattice_calibration.count;
+  report->spring_calibration.count += after->spring_calibration.count - before->spring_calibration.count;
   for (int i = 0; i < SBF_DIHEDRAL_BINS; i++)
-    report->dihedrals[i] += after->dihedrals[i] - before->dihedrals[i];
+    report->lattices.dihedrals[i] += after->lattices.dihedrals[i] - before->lattices.dihedrals[i];
 }

@@ -7,7 +7,7 @@ enum { MAX_COMPARISONS = 1 << 16 };
 
 /* Reports that a part has another number now, or refuses it. */
 static bool take(sbfi_gltf_reader *r, const char *list, uint32_t was, uint32_t is, const char *by) {
-  if (!r->options.mendable)
+  if (!r->options.repairable)
     return sbfi_glb_fault(&r->file, SBF_CODE_GLTF_CHANGED,
         "item %u of the glTF file's %s is now number %u, because another program renumbered them: `sbfmt "
         "validate --fix` writes the new numbers",

@@ -13,7 +13,7 @@ typedef struct sbfi_stated_mesh {
 } sbfi_stated_mesh;
 
 /* Finds the vertices of a stated mesh. Under its own number it must have the checksum; if it has not, another
- * mesh with it is reported and taken if the load mends, and named in the error otherwise. False, with the
+ * mesh with it is reported and used if the load repairs, and named in the error otherwise. False, with the
  * file's error set, if there is none. */
 bool sbfi_find_stated_mesh(sbfi_gltf_reader *r, const sbfi_stated_mesh *stated, sbfi_mesh_vertices *vertices);
 

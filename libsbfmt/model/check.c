@@ -18,8 +18,8 @@ typedef struct checker {
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user;
   uint32_t limit, found;
-  bool outline;  /* lists may have a count but no items */
-  bool mendable; /* skips faults that sbf_fix repairs */
+  bool outline;    /* lists may have a count but no items */
+  bool repairable; /* skips faults that sbf_fix repairs */
   sbfi_ids ids;
 } checker;
 
@@ -159,7 +159,7 @@ static bool is_finite(float value) {
 }
 
 /* Lists of weights that sbf_fix clamps to their range. */
-static bool is_mendable(const sbfi_element_path *path, const sbfi_field *field) {
+static bool is_repairable(const sbfi_element_path *path, const sbfi_field *field) {
   static const char *const lists[][2] = {
       {"skin", "weights"}, {"pin_set", "weights"}, {"embedding", "blends"}};
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
@@ -170,7 +170,7 @@ static bool is_mendable(const sbfi_element_path *path, const sbfi_field *field) 
 static void check_floats(
     checker *c, const sbfi_element_path *path, const sbfi_field *field, const float *at, size_t count) {
   bounds b = bounds_of(field);
-  if (c->mendable && is_mendable(path, field)) b = (bounds){-FLT_MAX, FLT_MAX};
+  if (c->repairable && is_repairable(path, field)) b = (bounds){-FLT_MAX, FLT_MAX};
   size_t bad = sbfi_find_f32_outside(at, count, b.low, b.high);
   if (bad == count) return;
   int64_t item = field->type == SBFI_LIST ? (int64_t)(bad / field->width) : -1;
@@ -272,7 +272,7 @@ static bool check_indices(
 static void check_positive(
     checker *c, const sbfi_element_path *path, const sbfi_field *field, sbfi_list list) {
   sbfi_list positions = sbfi_term_list(&field->index->terms[0], path);
-  if (!positions.at || c->mendable) return;
+  if (!positions.at || c->repairable) return;
   size_t bad = sbfi_find_not_positive(list.at, list.count, positions.at);
   if (bad < list.count)
     fault(c, SBF_CODE_TETRAHEDRON_INVERTED, path, field, (int64_t)bad,
@@ -415,7 +415,7 @@ uint32_t sbfi_check_structure(const sbf_asset *asset, const sbf_load_options *op
     void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user, uint32_t limit) {
   checker c = {.asset = asset, .report = report, .user = user, .limit = limit};
   if (options) c.outline = options->outline;
-  if (options) c.mendable = options->mendable;
+  if (options) c.repairable = options->repairable;
   return check_asset(&c);
 }
 

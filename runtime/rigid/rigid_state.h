@@ -26,21 +26,31 @@ typedef struct sbri_rigid_joint_state {
       torque; /* joint force and torque on body b about frame b, mean of the last tick, N and N m */
 } sbri_rigid_joint_state;
 
+/* Decay of slow motion: maximum speeds over size, 1/s, in the present interval and the previous one. */
+typedef struct sbri_rigid_decay_state {
+  uint32_t ticks; /* ticks of the present interval */
+  float max, before;
+} sbri_rigid_decay_state;
+
+/* A fall of a character. */
+typedef struct sbri_rigid_fall_state {
+  uint32_t posture;                     /* of sbr_posture */
+  float posture_s, still_s;             /* time in that posture; time of lying still in it, s */
+  float drive_fraction, rest_s, rise_s; /* of sbr_fall_definition */
+} sbri_rigid_fall_state;
+
 typedef struct sbri_rigid_drive_state {
   float frequency_hz, damping_ratio, strength, joint_damping_1_s, joint_friction; /* as sbr_rigid_drive */
   uint32_t asleep, idle_ticks;
-  uint32_t damping_ticks;          /* ticks of the interval in which slow motion is checked for decay */
-  float damped_max, damped_before; /* maximum speed over size in that interval and the previous one, 1/s */
-  uint32_t stored_contacts;        /* of the last tick */
-  uint32_t substeps;               /* of the last tick */
-  uint32_t soft_steps;             /* steps per tick last requested by its soft bodies; 0: none */
-  uint32_t slow_ticks;             /* ticks with slow motion only */
-  float last_step_s;               /* of the last tick; 0: the bodies have just begun to move */
-  uint32_t is_free;                /* in the last tick nothing was near or attached */
-  uint32_t any_dynamic;            /* some body is not kinematic */
-  uint32_t posture;                /* of sbr_posture */
-  float posture_s, still_s;        /* time in that posture; time of lying still in it, s */
-  float drive_fraction, rest_s, rise_s; /* of sbr_fall_definition */
+  sbri_rigid_decay_state decay;
+  uint32_t stored_contacts; /* of the last tick */
+  uint32_t substeps;        /* of the last tick */
+  uint32_t soft_steps;      /* steps per tick last requested by its soft bodies; 0: none */
+  uint32_t slow_ticks;      /* ticks with slow motion only */
+  float last_step_s;        /* of the last tick; 0: the bodies have just begun to move */
+  uint32_t is_free;         /* in the last tick nothing was near or attached */
+  uint32_t any_dynamic;     /* some body is not kinematic */
+  sbri_rigid_fall_state fall;
 } sbri_rigid_drive_state;
 
 /* What a contact keeps from the previous step. */

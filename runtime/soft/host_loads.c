@@ -1,10 +1,10 @@
-/* Prepares forces and holds of the host for a tick: sbrun/soft_body.h. */
+/* Prepares forces and grabs of the host for a tick: sbrun/soft_body.h. */
 #include "math/vec3.h"
 #include "soft/soft.h"
 #include "soft/solvers/scheme.h"
 
 static const float TWO_PI = 6.2831853f, EARTH_M_S2 = 9.80665f;
-/* Default force limit of a hold, in multiples of the body's weight. */
+/* Default force limit of a grab, in multiples of the body's weight. */
 static const float LIFTS = 20;
 
 bool sbri_vertex_weights_find(
@@ -46,7 +46,7 @@ static float inverse_mass_of(const sbri_island *island, const sbri_vertex_weight
   return sum;
 }
 
-static void hold(const sbri_character *c, const sbri_load *load, float mass, sbri_load_now *to) {
+static void prepare_grab(const sbri_character *c, const sbri_load *load, float mass, sbri_load_now *to) {
   const sbr_double3 o = sbri_header(c)->origin;
   float s = c->scale, w = TWO_PI * load->frequency_hz / c->time_scale;
   to->target = (sbf_vec3){(float)((load->target.x - o.x) / (double)s),
@@ -63,12 +63,12 @@ static void prepare(const sbr_world *world, sbri_character *c, sbri_load *load) 
   if (!sbri_body_accepts_forces(c, body)) return;
   const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]);
   float mass = sbri_body_mass(c, body), s = c->scale;
-  sbri_load_now is = {.body = load->body, .holds = load->kind == SBRI_LOAD_HOLD, .impulse = load->impulse};
+  sbri_load_now is = {.body = load->body, .is_grab = load->kind == SBRI_LOAD_GRAB, .impulse = load->impulse};
   bool whole = load->vertex == SBR_WHOLE_BODY;
   if (!whole && !sbri_vertex_weights_find(c, body, load->vertex, &is.at)) return;
   is.inverse_mass = whole ? 1 / mass : inverse_mass_of(&now, &is.at);
-  if (is.holds)
-    hold(c, load, mass, &is);
+  if (is.is_grab)
+    prepare_grab(c, load, mass, &is);
   else
     is.force = sbri_scale(load->force, (left < tick_s ? left / tick_s : 1) / (s * s * s));
   sbri_loads_now(c)->at[sbri_loads_now(c)->count++] = is;

@@ -26,7 +26,7 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_RIGID_PUSH,     /* body, position, impulse */
   SBRI_RECORDED_RIGID_FALL,     /* fraction, rest, rise */
   SBRI_RECORDED_DETAIL_LEVEL,   /* detail level */
-  SBRI_RECORDED_SHOWN,          /* visibility */
+  SBRI_RECORDED_VISIBILITY,     /* visibility */
   SBRI_RECORDED_VIEW,           /* index, count, eye, forward, height, width, lines; no character */
   SBRI_RECORDED_SOFT_VELOCITY,  /* body, velocity, angular velocity */
   SBRI_RECORDED_SOFT_IMPULSE,   /* body, vertex, impulse */

@@ -30,7 +30,7 @@ typedef struct sbri_character_state {
   uint32_t detail_level_ticks;      /* ticks since the level changed; UINT32_MAX: not displayed since */
   uint32_t fade_ticks, fades_ticks; /* remaining ticks of the transition and their total; 0: none */
   float fade, fade_before; /* weight of `faded` in the displayed vertices, now and in the previous tick */
-  uint32_t shown;          /* sbr_visibility */
+  uint32_t visibility;     /* sbr_visibility */
   uint32_t unseen_ticks;   /* ticks outside all views */
   uint32_t fade_kept;      /* changes level in the next tick; its vertices are stored until then */
   uint32_t swing_ticks;    /* ticks for which a change has been delayed because it swings */

@@ -8,7 +8,7 @@
 
 #include "harness.h"
 
-START_TEST(what_holds_goes_on)
+START_TEST(a_true_assertion_continues)
 {
   int evaluated = 0;
   SBF_ASSERT(++evaluated == 1);
@@ -16,15 +16,15 @@ START_TEST(what_holds_goes_on)
 }
 END_TEST
 
-START_TEST(what_is_broken_stops)
+START_TEST(a_false_assertion_aborts)
 { SBF_ASSERT(2 + 2 == 5); }
 END_TEST
 
 int main(void) {
   Suite *suite = suite_create("assert");
   TCase *c = tcase_create("assert");
-  tcase_add_test(c, what_holds_goes_on);
-  tcase_add_test_raise_signal(c, what_is_broken_stops, SIGABRT);
+  tcase_add_test(c, a_true_assertion_continues);
+  tcase_add_test_raise_signal(c, a_false_assertion_aborts, SIGABRT);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -26,7 +26,7 @@ static bool decoded(const char *text, size_t step, sbfi_text *to) {
   return sbfi_base64_is_complete(&reader);
 }
 
-START_TEST(known_answers_hold_both_ways)
+START_TEST(known_texts_encode_and_decode)
 {
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
     sbfi_text text;
@@ -74,7 +74,7 @@ START_TEST(white_space_is_skipped)
 }
 END_TEST
 
-START_TEST(what_is_not_base64_is_refused_where_it_stands)
+START_TEST(invalid_characters_are_refused_at_their_offset)
 {
   const struct {
     const char *text;
@@ -108,10 +108,10 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("base64");
   TCase *c = tcase_create("base64");
-  tcase_add_test(c, known_answers_hold_both_ways);
+  tcase_add_test(c, known_texts_encode_and_decode);
   tcase_add_test(c, all_bytes_survive_any_split);
   tcase_add_test(c, white_space_is_skipped);
-  tcase_add_test(c, what_is_not_base64_is_refused_where_it_stands);
+  tcase_add_test(c, invalid_characters_are_refused_at_their_offset);
   tcase_add_test(c, no_memory_is_reported);
   suite_add_tcase(s, c);
   return s;

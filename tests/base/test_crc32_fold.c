@@ -26,7 +26,7 @@ START_TEST(the_reference_is_crc_32)
 { ck_assert_uint_eq(crc_of(0, (const uint8_t *)"123456789", 9), 0xCBF43926u); }
 END_TEST
 
-START_TEST(folded_bytes_and_the_rest_have_the_same_crc)
+START_TEST(folded_and_remaining_bytes_give_the_same_crc)
 {
   static uint8_t bytes[SIZE + OFFSETS];
   fill(bytes, sizeof bytes);
@@ -45,7 +45,7 @@ START_TEST(folded_bytes_and_the_rest_have_the_same_crc)
 }
 END_TEST
 
-START_TEST(all_that_can_be_folded_is)
+START_TEST(every_full_block_is_folded)
 {
   static uint8_t bytes[SIZE];
   uint8_t folded[SBFI_CRC32_FOLDED];
@@ -59,8 +59,8 @@ int main(void) {
   Suite *s = suite_create("crc32_fold");
   TCase *c = tcase_create("crc32_fold");
   tcase_add_test(c, the_reference_is_crc_32);
-  tcase_add_test(c, folded_bytes_and_the_rest_have_the_same_crc);
-  tcase_add_test(c, all_that_can_be_folded_is);
+  tcase_add_test(c, folded_and_remaining_bytes_give_the_same_crc);
+  tcase_add_test(c, every_full_block_is_folded);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

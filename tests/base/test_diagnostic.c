@@ -5,7 +5,7 @@
 #include "base/diagnostic.h"
 #include "base/text.h"
 
-START_TEST(a_code_brings_its_status_and_severity)
+START_TEST(a_code_sets_status_and_severity)
 {
   sbf_diagnostic d;
   ck_assert_int_eq(sbfi_diagnose(&d, SBF_CODE_XML_BAD_VALUE, "\"%s\" is no number", "x"), SBF_BAD_INPUT);
@@ -80,7 +80,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("diagnostic");
   TCase *c = tcase_create("diagnostic");
-  tcase_add_test(c, a_code_brings_its_status_and_severity);
+  tcase_add_test(c, a_code_sets_status_and_severity);
   tcase_add_test(c, every_code_has_the_values_of_its_table);
   tcase_add_test(c, texts_are_cut_between_characters);
   tcase_add_test(c, a_reporter_counts_and_calls);

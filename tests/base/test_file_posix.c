@@ -62,7 +62,7 @@ typedef sbf_status getter(
     const char *, uint64_t, const sbf_allocator *, sbfi_file_content *, sbf_diagnostic *);
 static getter *const getters[] = {sbfi_file_map, sbfi_file_read};
 
-START_TEST(a_file_is_mapped_and_read_alike)
+START_TEST(mapped_and_read_files_have_equal_bytes)
 {
   const size_t sizes[] = {1, 4096, 100000, 65536};
   uint8_t *bytes = malloc(100000);
@@ -171,7 +171,7 @@ START_TEST(reading_survives_every_failing_allocation)
 }
 END_TEST
 
-START_TEST(any_part_is_read_by_its_place)
+START_TEST(any_range_is_read_by_offset)
 {
   sbfi_file file;
   sbf_diagnostic d;
@@ -243,7 +243,7 @@ START_TEST(a_file_has_no_name_before_it_is_whole)
 }
 END_TEST
 
-START_TEST(the_old_file_stands_until_the_commit)
+START_TEST(the_old_file_remains_until_commit)
 {
   sbfi_file_writer writer;
   sbf_diagnostic d;
@@ -333,7 +333,7 @@ START_TEST(permissions_and_links_are_kept)
 END_TEST
 
 /* A file in its place would be one that nobody named; as root that link may be /dev/stdout. */
-START_TEST(a_link_to_nothing_stays)
+START_TEST(a_dangling_link_is_not_replaced)
 {
   struct stat facts;
   sbf_diagnostic d;
@@ -359,7 +359,7 @@ START_TEST(a_name_may_be_as_long_as_the_system_allows)
 }
 END_TEST
 
-START_TEST(a_device_is_written_to_and_stays)
+START_TEST(a_device_is_written_in_place)
 {
   struct stat facts;
   sbf_diagnostic d;
@@ -375,7 +375,7 @@ START_TEST(a_device_is_written_to_and_stays)
 }
 END_TEST
 
-START_TEST(writing_without_memory_leaves_nothing)
+START_TEST(a_failed_allocation_leaves_no_file)
 {
   harness_memory memory;
   sbf_diagnostic d;
@@ -393,25 +393,25 @@ static Suite *suite(void) {
   Suite *s = suite_create("file_posix");
   TCase *c = tcase_create("read");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_loop_test(c, a_file_is_mapped_and_read_alike, 0, 2);
+  tcase_add_loop_test(c, mapped_and_read_files_have_equal_bytes, 0, 2);
   tcase_add_loop_test(c, an_empty_file_is_no_error, 0, 2);
   tcase_add_loop_test(c, unreadable_files_are_reported, 0, 2);
   tcase_add_loop_test(c, a_pipe_is_read_to_its_end, 0, 2);
   tcase_add_test(c, reading_survives_every_failing_allocation);
-  tcase_add_test(c, any_part_is_read_by_its_place);
+  tcase_add_test(c, any_range_is_read_by_offset);
   suite_add_tcase(s, c);
   c = tcase_create("write");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, pieces_add_up_to_the_file);
   tcase_add_test(c, a_file_has_no_name_before_it_is_whole);
-  tcase_add_test(c, the_old_file_stands_until_the_commit);
+  tcase_add_test(c, the_old_file_remains_until_commit);
   tcase_add_test(c, a_failing_write_leaves_the_old_file_alone);
   tcase_add_test(c, failed_writes_are_reported);
   tcase_add_test(c, permissions_and_links_are_kept);
-  tcase_add_test(c, a_link_to_nothing_stays);
+  tcase_add_test(c, a_dangling_link_is_not_replaced);
   tcase_add_test(c, a_name_may_be_as_long_as_the_system_allows);
-  tcase_add_test(c, a_device_is_written_to_and_stays);
-  tcase_add_test(c, writing_without_memory_leaves_nothing);
+  tcase_add_test(c, a_device_is_written_in_place);
+  tcase_add_test(c, a_failed_allocation_leaves_no_file);
   suite_add_tcase(s, c);
   return s;
 }

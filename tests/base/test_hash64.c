@@ -12,7 +12,7 @@ static uint64_t hash_of(const void *bytes, size_t size, size_t step) {
   return sbfi_hash64_value(&hash);
 }
 
-START_TEST(known_answers_hold)
+START_TEST(known_inputs_give_known_hashes)
 {
   const struct {
     const char *text;
@@ -27,7 +27,7 @@ START_TEST(known_answers_hold)
 }
 END_TEST
 
-START_TEST(numbers_count_as_little_endian_bytes)
+START_TEST(numbers_are_hashed_as_little_endian_bytes)
 {
   const uint8_t bytes[] = {1, 2, 3, 4, 0x88, 0x77, 0x66, 0x55, 0x44, 0x33, 0x22, 0x11, 0, 0, 0x80, 0xBF, 0, 0,
       0, 0, 0, 0, 0xF0, 0x3F};
@@ -70,8 +70,8 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("hash64");
   TCase *c = tcase_create("hash64");
-  tcase_add_test(c, known_answers_hold);
-  tcase_add_test(c, numbers_count_as_little_endian_bytes);
+  tcase_add_test(c, known_inputs_give_known_hashes);
+  tcase_add_test(c, numbers_are_hashed_as_little_endian_bytes);
   tcase_add_test(c, every_bit_changes_the_value);
   suite_add_tcase(s, c);
   return s;

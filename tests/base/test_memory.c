@@ -43,7 +43,7 @@ START_TEST(an_arena_gives_zeroed_and_aligned_memory)
 }
 END_TEST
 
-START_TEST(an_arena_keeps_to_its_limit)
+START_TEST(an_arena_respects_its_limit)
 {
   sbfi_arena arena;
   sbfi_arena_init(&arena, NULL, 1000);
@@ -109,7 +109,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("memory");
   tcase_add_test(c, sizes_are_checked);
   tcase_add_test(c, an_arena_gives_zeroed_and_aligned_memory);
-  tcase_add_test(c, an_arena_keeps_to_its_limit);
+  tcase_add_test(c, an_arena_respects_its_limit);
   tcase_add_test(c, failing_allocations_lose_nothing);
   tcase_add_test(c, an_array_grows_by_pieces);
   suite_add_tcase(s, c);

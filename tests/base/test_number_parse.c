@@ -85,7 +85,7 @@ START_TEST(malformed_numbers_are_refused_where_they_break)
 }
 END_TEST
 
-START_TEST(a_number_ends_where_it_must)
+START_TEST(parsing_stops_at_the_end_of_the_number)
 {
   const struct {
     const char *text;
@@ -138,7 +138,7 @@ START_TEST(the_edges_of_the_range_are_exact)
 }
 END_TEST
 
-START_TEST(zeros_may_pad_without_end)
+START_TEST(any_number_of_padding_zeros_is_accepted)
 {
   enum { ZEROS = 100000 };
   char *text = malloc(ZEROS + 64);
@@ -187,7 +187,7 @@ START_TEST(ties_of_every_exponent_go_to_even)
 }
 END_TEST
 
-START_TEST(random_texts_are_read_as_the_c_library_reads_them)
+START_TEST(random_texts_parse_as_in_the_c_library)
 {
   char text[256];
   for (int i = 0; i < 300000; i++) {
@@ -216,7 +216,7 @@ START_TEST(random_texts_are_read_as_the_c_library_reads_them)
 }
 END_TEST
 
-START_TEST(rounding_mode_does_not_matter)
+START_TEST(rounding_mode_changes_nothing)
 {
   const int modes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
   for (int i = 0; i < 3; i++) {
@@ -294,13 +294,13 @@ static Suite *suite(void) {
   tcase_add_test(c, simple_numbers_are_read);
   tcase_add_test(c, zero_keeps_its_sign);
   tcase_add_test(c, malformed_numbers_are_refused_where_they_break);
-  tcase_add_test(c, a_number_ends_where_it_must);
+  tcase_add_test(c, parsing_stops_at_the_end_of_the_number);
   tcase_add_test(c, the_span_bounds_the_reading);
   tcase_add_test(c, the_edges_of_the_range_are_exact);
-  tcase_add_test(c, zeros_may_pad_without_end);
+  tcase_add_test(c, any_number_of_padding_zeros_is_accepted);
   tcase_add_test(c, ties_of_every_exponent_go_to_even);
-  tcase_add_test(c, random_texts_are_read_as_the_c_library_reads_them);
-  tcase_add_test(c, rounding_mode_does_not_matter);
+  tcase_add_test(c, random_texts_parse_as_in_the_c_library);
+  tcase_add_test(c, rounding_mode_changes_nothing);
   tcase_add_test(c, a_comma_locale_changes_nothing);
   suite_add_tcase(s, c);
   c = tcase_create("integers");

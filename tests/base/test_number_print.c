@@ -38,7 +38,7 @@ START_TEST(the_layout_is_the_canonical_one)
 }
 END_TEST
 
-START_TEST(what_is_not_finite_has_no_text)
+START_TEST(non_finite_numbers_are_not_printed)
 {
   char untouched = '#';
   ck_assert_uint_eq(sbfi_print_f32(&untouched, INFINITY), 0);
@@ -142,7 +142,7 @@ START_TEST(random_bit_patterns_survive_the_round_trip)
 }
 END_TEST
 
-START_TEST(locale_and_rounding_mode_do_not_matter)
+START_TEST(locale_and_rounding_mode_change_nothing)
 {
   fesetround(FE_UPWARD);
   ck_assert_str_eq(printed(0.3f), "0.3");
@@ -176,11 +176,11 @@ static Suite *suite(void) {
   Suite *s = suite_create("number_print");
   TCase *c = tcase_create("float32");
   tcase_add_test(c, the_layout_is_the_canonical_one);
-  tcase_add_test(c, what_is_not_finite_has_no_text);
+  tcase_add_test(c, non_finite_numbers_are_not_printed);
   tcase_add_test(c, every_exponent_gives_the_shortest_and_nearest);
   tcase_add_test(c, the_smallest_subnormals_are_shortest_too);
   tcase_add_test(c, random_bit_patterns_survive_the_round_trip);
-  tcase_add_test(c, locale_and_rounding_mode_do_not_matter);
+  tcase_add_test(c, locale_and_rounding_mode_change_nothing);
   suite_add_tcase(s, c);
   c = tcase_create("integers");
   tcase_add_test(c, integers_are_printed);

@@ -83,7 +83,7 @@ static int play(const char *role, int count) {
   return 98;
 }
 
-START_TEST(a_status_comes_back)
+START_TEST(the_exit_status_is_returned)
 {
   sbfi_process_result result;
   run("three", &(sbfi_process_limits){0}, &result);
@@ -99,7 +99,7 @@ START_TEST(a_status_comes_back)
 }
 END_TEST
 
-START_TEST(output_is_kept_whole_and_errors_at_their_end)
+START_TEST(all_output_and_the_end_of_errors_are_stored)
 {
   sbfi_process_result result;
   run("both", &(sbfi_process_limits){.output_bytes = 300000}, &result);
@@ -129,7 +129,7 @@ START_TEST(a_crash_is_a_result)
 }
 END_TEST
 
-START_TEST(limits_end_the_program)
+START_TEST(limits_terminate_the_program)
 {
   sbfi_process_result result;
   run("sleep", &(sbfi_process_limits){.wall_ms = 300}, &result);
@@ -167,7 +167,7 @@ START_TEST(memory_is_limited)
 }
 END_TEST
 
-START_TEST(closed_pipes_are_not_the_end)
+START_TEST(closed_pipes_do_not_end_the_wait)
 {
   sbfi_process_result result;
   run("silent", &(sbfi_process_limits){.wall_ms = 60000}, &result);
@@ -177,7 +177,7 @@ START_TEST(closed_pipes_are_not_the_end)
 }
 END_TEST
 
-START_TEST(what_it_leaves_behind_does_not_hold_us)
+START_TEST(remaining_children_do_not_block_the_caller)
 {
   sbfi_process_result result;
   run("orphan", &(sbfi_process_limits){0}, &result);
@@ -187,7 +187,7 @@ START_TEST(what_it_leaves_behind_does_not_hold_us)
 }
 END_TEST
 
-START_TEST(nothing_is_inherited)
+START_TEST(no_descriptors_are_inherited)
 {
   sbfi_process_result result;
   int pinned = fcntl(1, F_DUPFD, 100); /* not close-on-exec */
@@ -201,7 +201,7 @@ START_TEST(nothing_is_inherited)
   ck_assert_uint_eq(result.output_size, 8);
   ck_assert_mem_eq(result.output, "0 0 0 -1", 8);
   sbfi_process_result_free(&result);
-  sigprocmask(SIG_SETMASK, NULL, &now); /* and the host keeps what it had */
+  sigprocmask(SIG_SETMASK, NULL, &now); /* and the host's mask is unchanged */
   ck_assert(sigismember(&now, SIGTERM) && !sigismember(&now, SIGUSR1));
   close(pinned);
 }
@@ -270,14 +270,14 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("process_posix");
   TCase *c = tcase_create("process");
-  tcase_add_test(c, a_status_comes_back);
-  tcase_add_test(c, output_is_kept_whole_and_errors_at_their_end);
+  tcase_add_test(c, the_exit_status_is_returned);
+  tcase_add_test(c, all_output_and_the_end_of_errors_are_stored);
   tcase_add_test(c, a_crash_is_a_result);
-  tcase_add_test(c, limits_end_the_program);
+  tcase_add_test(c, limits_terminate_the_program);
   tcase_add_test(c, memory_is_limited);
-  tcase_add_test(c, closed_pipes_are_not_the_end);
-  tcase_add_test(c, what_it_leaves_behind_does_not_hold_us);
-  tcase_add_test(c, nothing_is_inherited);
+  tcase_add_test(c, closed_pipes_do_not_end_the_wait);
+  tcase_add_test(c, remaining_children_do_not_block_the_caller);
+  tcase_add_test(c, no_descriptors_are_inherited);
   tcase_add_test(c, a_host_without_standard_descriptors_will_do);
   tcase_add_test(c, unsupported_files_are_reported);
   tcase_add_test(c, output_without_memory_is_an_error);

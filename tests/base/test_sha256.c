@@ -17,7 +17,7 @@ static const char *hash_of(const char *bytes, size_t size, size_t step) {
   return text;
 }
 
-START_TEST(known_answers_hold)
+START_TEST(known_inputs_give_known_hashes)
 {
   const struct {
     const char *text, *digest;
@@ -52,7 +52,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("sha256");
   TCase *c = tcase_create("sha256");
-  tcase_add_test(c, known_answers_hold);
+  tcase_add_test(c, known_inputs_give_known_hashes);
   tcase_add_test(c, every_length_is_padded_right);
   suite_add_tcase(s, c);
   return s;

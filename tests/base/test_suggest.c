@@ -23,7 +23,7 @@ START_TEST(test_close_words)
 }
 END_TEST
 
-START_TEST(test_nothing_close)
+START_TEST(test_no_close_word)
 {
   ck_assert_str_eq(closest("skeleton"), "");
   ck_assert_str_eq(closest(""), "");
@@ -45,7 +45,7 @@ int main(void) {
   Suite *suite = suite_create("suggest");
   TCase *all = tcase_create("all");
   tcase_add_test(all, test_close_words);
-  tcase_add_test(all, test_nothing_close);
+  tcase_add_test(all, test_no_close_word);
   tcase_add_test(all, test_text);
   suite_add_tcase(suite, all);
   return harness_run(suite);

@@ -22,7 +22,7 @@ START_TEST(spans_are_compared_and_trimmed)
 }
 END_TEST
 
-START_TEST(words_are_taken_one_by_one)
+START_TEST(words_are_split_one_by_one)
 {
   sbfi_span rest = span("\t v 1.5  -2\r\n"), word;
   const char *expected[] = {"v", "1.5", "-2"};
@@ -89,7 +89,7 @@ START_TEST(every_code_point_is_well_formed_and_cut_whole)
 }
 END_TEST
 
-START_TEST(paths_that_leave_their_folder_are_known_by_their_letters)
+START_TEST(paths_that_leave_their_folder_are_detected_from_their_text)
 {
   static const char *const leave[] = {"/a", "..", "../a", "a/../../b", "/../LWO", "C:/a.png", "a\\b", "./.."};
   static const char *const stay[] = {"", "a", "a/b.png", "a/../b", "./a", "a//b", "a..b", "..a"};
@@ -98,7 +98,7 @@ START_TEST(paths_that_leave_their_folder_are_known_by_their_letters)
 }
 END_TEST
 
-START_TEST(the_buffer_takes_every_kind)
+START_TEST(the_buffer_appends_every_type)
 {
   sbfi_text text;
   sbfi_text_init(&text, NULL);
@@ -122,7 +122,7 @@ START_TEST(the_buffer_takes_every_kind)
 }
 END_TEST
 
-START_TEST(the_buffer_fails_once_and_for_all)
+START_TEST(a_failed_buffer_stays_failed)
 {
   harness_memory memory;
   for (size_t allowed = 0;; allowed++) {
@@ -165,7 +165,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("text");
   TCase *c = tcase_create("spans");
   tcase_add_test(c, spans_are_compared_and_trimmed);
-  tcase_add_test(c, words_are_taken_one_by_one);
+  tcase_add_test(c, words_are_split_one_by_one);
   tcase_add_test(c, lines_end_in_any_convention);
   suite_add_tcase(s, c);
   c = tcase_create("utf8");
@@ -173,11 +173,11 @@ static Suite *suite(void) {
   tcase_add_test(c, every_code_point_is_well_formed_and_cut_whole);
   suite_add_tcase(s, c);
   c = tcase_create("paths");
-  tcase_add_test(c, paths_that_leave_their_folder_are_known_by_their_letters);
+  tcase_add_test(c, paths_that_leave_their_folder_are_detected_from_their_text);
   suite_add_tcase(s, c);
   c = tcase_create("buffer");
-  tcase_add_test(c, the_buffer_takes_every_kind);
-  tcase_add_test(c, the_buffer_fails_once_and_for_all);
+  tcase_add_test(c, the_buffer_appends_every_type);
+  tcase_add_test(c, a_failed_buffer_stays_failed);
   tcase_add_test(c, an_absurd_size_fails_cleanly);
   suite_add_tcase(s, c);
   return s;

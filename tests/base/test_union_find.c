@@ -4,7 +4,7 @@
 
 enum { COUNT = 64 };
 
-START_TEST(each_number_begins_alone)
+START_TEST(each_number_starts_in_its_own_set)
 {
   uint32_t parents[COUNT];
   sbfi_sets_begin(parents, COUNT);
@@ -47,7 +47,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("union_find");
   TCase *c = tcase_create("union_find");
-  tcase_add_test(c, each_number_begins_alone);
+  tcase_add_test(c, each_number_starts_in_its_own_set);
   tcase_add_test(c, the_lowest_is_the_root_in_any_order);
   tcase_add_test(c, joining_again_changes_nothing);
   suite_add_tcase(s, c);

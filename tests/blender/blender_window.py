@@ -9,12 +9,12 @@ import subprocess
 from blender_process import skip
 
 WIDTH, HEIGHT = 1300, 1250
-MOST_CPU_S = 150  # of the processor: thrice what it takes, on a machine with other work too
+MOST_CPU_S = 150  # of the processor: three times the usual, for busy machines
 MOST_S = 560
 
 
 class Screen:
-    """An Xvfb on a number that it finds itself, so that two may start at once. What it shows lies in the folder, as `Xvfb_screen0`; its
+    """An Xvfb on a free display number, so that two may start at once. Its picture is in the folder, as `Xvfb_screen0`; its
     socket, in /tmp, is linked into another system's folder too."""
 
     def __init__(self, folder, root):

@@ -26,7 +26,7 @@ def make_lizard(folder, program):
 
 
 def make_examples(folder, program):
-    """Every example built, under its name; and samples of the specification that hold what no example has."""
+    """Every built example, under its name; and samples of the specification with parts that no example has."""
     os.makedirs(folder)
     sources = {os.path.basename(os.path.dirname(path)): (path, ) for path in glob.glob(os.path.join(ROOT, "examples", "*", "*.glb"))}
     sources["lizard"] = LIZARD

@@ -47,7 +47,7 @@ def biped():
     parts = [(name, head, tail, 0.09 if name in ("hips", "spine", "chest") else 0.05) for name, _, head, tail, _ in BIPED_BONES]
     skin, of_bone = limbs("skin", parts)
     weights = {name: {vertex: 1.0 for vertex in vertices} for name, vertices in of_bone.items()}
-    for name, parent, *_ in BIPED_BONES:  # the first ring of each limb is shared with what it hangs on
+    for name, parent, *_ in BIPED_BONES:  # the first ring of each limb is shared with its parent
         if parent:
             for vertex in list(of_bone[name])[:8]:
                 weights[name][vertex], weights[parent][vertex] = 0.625, 0.375

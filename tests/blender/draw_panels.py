@@ -105,7 +105,7 @@ def look(names, angles, near=1.0):
     low, high = (Vector([pick(one[axis] for one in corners) for axis in range(3)]) for pick in (min, max))
     view = area_of("VIEW_3D").spaces[0].region_3d
     view.view_rotation, view.view_location = angles, (low + high) / 2
-    # From afar by a long lens: this Blender's drawing in software loses what is nearer than two metres.
+    # From afar by a long lens: this Blender's software renderer loses objects nearer than two metres.
     area_of("VIEW_3D").spaces[0].lens = 200
     view.view_distance = (high - low).length * 6 / near
 

@@ -27,7 +27,7 @@ class SourceParts(fixtures.SceneTest):
         self.assertIn("sbfmt build", self.refuse("out.sbfz"))
         self.assertIn("-o FILE.glb", self.refuse("out.glb"))
 
-    def test_what_was_exported_comes_back(self):
+    def test_exported_scenes_are_imported_equal(self):
         """Import too, in plain Python."""
         fixtures.ball("blob")
         one = self.export()

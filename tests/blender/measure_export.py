@@ -53,13 +53,13 @@ def large_ball():
 
 
 class Peak:
-    """Memory above what is held now; unknown where there is no /proc, as in a folder with another system."""
+    """Memory above the present use; unknown without /proc, as in a folder with another system."""
 
     def __init__(self):
         self.known = os.path.exists("/proc/self/clear_refs")
         if self.known:
             with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
-                file.write("5")  # the peak begins anew
+                file.write("5")  # resets the peak
             self.held = self.kib("VmRSS")
 
     @staticmethod

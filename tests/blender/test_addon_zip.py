@@ -33,7 +33,7 @@ class Zip(fixtures.SceneTest):
         self.assertEqual("platforms = [" in manifest, has_library)
 
     def test_installs_through_the_preferences(self):
-        """Over the running one, whose library has been used: its files are written anew under it."""
+        """Over the running one with its library loaded: its files are replaced."""
         fixtures.box("before")
         self.export(build=False)
         addon_utils.disable("soft_body_format", default_set=True)

@@ -95,7 +95,7 @@ class Bakes(fixtures.SceneTest):
         self.scene.frame_set(11)
         self.assertLess(float(abs(shown("blob (baked)") - (watched[9] + watched[13]) / 2).max()), 1e-4)
 
-    def test_what_is_no_mesh_of_the_scene_plays_as_a_copy(self):
+    def test_meshes_missing_from_the_scene_play_as_copies(self):
         """What a collection instance shows, and a curve."""
         inside = bpy.data.collections.new("inside")
         self.scene.collection.objects.unlink(self.blob)
@@ -125,7 +125,7 @@ class Bakes(fixtures.SceneTest):
                     self.assertFalse(owner.hide_get())
                     self.settings.bake_start, self.settings.bake_end = 5, 20
 
-    def test_what_cannot_be(self):
+    def test_invalid_bakes_are_refused(self):
         self.settings.bake_folder = "//cache"
         with self.assertRaisesRegex(RuntimeError, "save it"):
             bpy.ops.sbfmt.bake()

@@ -41,7 +41,7 @@ class Options(fixtures.SceneTest):
         self.assertAlmostEqual(arguments["cell"], 0.05)
         self.assertAlmostEqual(arguments["overlap"], 0.02)
 
-    def test_what_is_inside_and_how_many_levels(self):
+    def test_interior_and_number_of_levels(self):
         fixtures.ball("blob")
         for interior, model in (("none", "springs"), ("lattice", "springs"), ("tetrahedra", "tetrahedra")):
             self.build.interior = interior

@@ -67,7 +67,7 @@ class Live(fixtures.SceneTest):
         self.assertFalse(self.change(self.flip)[1].count("SURFACE_WINDING"))
         self.assertFalse(self.change(lambda: None)[0])  # a check is no change
 
-    def test_it_can_be_turned_off_and_leaves_large_scenes_alone(self):
+    def test_it_can_be_disabled_and_skips_large_scenes(self):
         bpy.ops.sbfmt.check()
         settings = self.scene.soft_body_format
         settings.checks_live = False
@@ -83,7 +83,7 @@ class Build(fixtures.SceneTest):
         self.assertEqual(bpy.ops.sbfmt.build(), {"FINISHED"})
         self.assertRegex(structure.summary(self.scene), r"built: \d+ structural")
 
-    def test_tetrahedra_of_a_blob_lie_where_the_model_lies(self):
+    def test_tetrahedra_of_a_blob_are_at_the_model(self):
         self.scene.unit_settings.scale_length = 0.1
         fixtures.ball("blob", 2.0, (5, 0, 0))
         bpy.ops.sbfmt.build()

@@ -20,11 +20,11 @@ def findings_of(**options):
 class Target(fixtures.SceneTest):
     """Where a file can't be written. Each time an older one stands there, or nothing may come to be."""
 
-    def test_a_folder_that_is_not_there(self):
+    def test_a_missing_folder(self):
         fixtures.box("b")
         self.assertIn("does not exist: make it", self.refuse("missing/out.sbf", build=False))
 
-    def test_a_folder_in_the_files_place(self):
+    def test_a_folder_at_the_output_path(self):
         fixtures.box("b")
         os.mkdir(self.path("out.sbf"))
         self.assertIn("is a folder", self.refuse(build=False))
@@ -57,7 +57,7 @@ class Target(fixtures.SceneTest):
         with open(self.path("out.sbf"), "rb") as file:
             self.assertEqual(file.read(), old)
 
-    def test_images_of_an_export_that_fails_are_not_left(self):
+    def test_failed_exports_leave_no_images(self):
         material, shader = fixtures.shaded("skin")
         fixtures.textured(material, shader, self.path("hide.png"))
         made = fixtures.box("b")
@@ -118,7 +118,7 @@ class Scene(fixtures.SceneTest):
         rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0), ("neck", "hip", (0, 0, 1), (0, 0, 2), 0),
                                         ("head", "neck", (0, 0, 2), (0, 0, 3), 0)])
         fixtures.hang(fixtures.box("belly"), rig, "head")
-        self.assertEqual([one for one in findings_of() if "no section" in one.message], [])  # what is above all that moves it
+        self.assertEqual([one for one in findings_of() if "no section" in one.message], [])  # the message about the body above it only
         fixtures.hang(fixtures.box("seat"), rig, "hip")
         found = [one for one in findings_of() if "no section" in one.message]
         self.assertEqual([(one.object_name, one.bone_name) for one in found], [("rig", "neck")])
@@ -133,7 +133,7 @@ class Scene(fixtures.SceneTest):
         image.buffers_free()
         self.assertIn("hide", self.refuse(build=False))
 
-    def test_a_collection_that_is_gone(self):
+    def test_a_deleted_collection(self):
         fixtures.box("b")
         self.assertIn("no collection", self.refuse(collection="gone"))
 
@@ -149,7 +149,7 @@ class Libraries(fixtures.SceneTest):
         scene.collection.objects.link(here.objects[0])
         return here.objects[0]
 
-    def test_a_linked_object_goes_out(self):
+    def test_a_linked_object_is_exported(self):
         self.linked().data.vertices  # it is read only, and is read
         self.assertEqual([one.name for one in self.export(build=False).render_meshes], ["belly"])
 
@@ -160,7 +160,7 @@ class Libraries(fixtures.SceneTest):
         self.assertEqual(sorted(round(max(one.mesh.positions), 3) for one in meshes), [0.5, 1.0])
         self.assertEqual(len(bpy.data.objects), 2)
 
-    def test_a_library_that_is_gone(self):
+    def test_a_missing_library(self):
         self.linked()
         bpy.ops.wm.save_as_mainfile(filepath=self.path("scene.blend"))
         os.unlink(self.path("library.blend"))

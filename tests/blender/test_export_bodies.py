@@ -74,7 +74,7 @@ class Bodies(fixtures.SceneTest):
         strength = 0.9**4 * 0.9
         self.assertAlmostEqual(goal.stiffness * goal.weights[0], 1000 * strength / (1 - strength), delta=1)
 
-    def test_edges_that_push_otherwise_than_they_pull(self):
+    def test_edges_whose_push_differs_from_their_pull(self):
         made = fixtures.sheet("b", 2)
         made.modifiers.new("s", "SOFT_BODY")
         soft = made.soft_body
@@ -87,7 +87,7 @@ class Bodies(fixtures.SceneTest):
         bpy.ops.sbfmt.check()
         self.assertIn("give them a little pull", " ".join(one.message for one in self.scene.soft_body_format.findings))
 
-    def test_what_a_goal_holds_fast_and_what_its_friction_holds_back(self):
+    def test_goals_pin_and_goal_friction_damps(self):
         made = fixtures.sheet("b", 2)
         made.vertex_groups.new(name="goal").add([0, 1, 2], 1.0, "REPLACE")
         made.vertex_groups["goal"].add([3], 0.5, "REPLACE")
@@ -216,7 +216,7 @@ class Bodies(fixtures.SceneTest):
         reported = " ".join(one.message for one in self.scene.soft_body_format.findings)
         self.assertRegex(reported, "damping of compression differs.*sewing")
 
-    def test_cloth_that_resists_pressing_otherwise_is_springs(self):
+    def test_cloth_with_its_own_compression_stiffness_becomes_springs(self):
         made = fixtures.sheet("cape", 4)
         made.vertex_groups.new(name="hem").add(list(range(len(made.data.vertices))), 0.5, "REPLACE")
         self.cloth(made, tension_stiffness=20, compression_stiffness=5, shear_stiffness=10, tension_damping=3, shear_damping=2,
@@ -326,7 +326,7 @@ class Rig(fixtures.SceneTest):
         x, y, z, w = found.frame_b.rotation
         self.assert_near(Quaternion((w, x, y, z)) @ Vector((1, 0, 0)), (0, 1, 0), 1e-6)
 
-    def test_limit_location_with_one_turn_makes_a_cylinder(self):
+    def test_limit_location_with_one_rotation_makes_a_cylinder(self):
         found = self.limit_location("head", "xz", min_x=0, max_x=0, min_z=0, max_z=0, min_y=-0.1, max_y=0.2)
         self.assertEqual((found.kind, self.bounds(found)), ("cylindrical", [("linear_x", -0.1, 0.2)]))
 
@@ -335,7 +335,7 @@ class Rig(fixtures.SceneTest):
         self.assertEqual((found.kind, self.bounds(found)),
                          ("six_dof", [("linear_y", -1e4, 0.3), ("linear_z", -0.1, 0.1), ("twist", 0, 0)]))
 
-    def test_no_way_to_slide_is_a_ball(self):
+    def test_no_sliding_axis_is_a_ball_joint(self):
         found = self.limit_location("head", min_x=0, max_x=0, min_y=0, max_y=0, min_z=0, max_z=0)
         self.assertEqual((found.kind, self.bounds(found)), ("spherical", []))
 
@@ -365,7 +365,7 @@ class Rig(fixtures.SceneTest):
         self.assert_near(asset.ik_chains[0].pole, (0.1, 0.5, 2))
         self.assertEqual(found.head.bone, asset.bones[1].id)
 
-    def test_a_leg_of_bones_that_do_not_hang_together(self):
+    def test_a_leg_of_unconnected_bones(self):
         gait = self.scene.soft_body_format.gait
         gait.use, gait.armature = True, self.rig
         leg = gait.legs.add()

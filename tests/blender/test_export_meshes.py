@@ -14,7 +14,7 @@ def points(numbers):
 
 
 class Meshes(fixtures.SceneTest):
-    def test_places_are_metres_y_up_and_vertices_keep_their_order(self):
+    def test_positions_are_metres_y_up_in_vertex_order(self):
         self.scene.unit_settings.scale_length = 0.01
         made = fixtures.mesh_object("L", [(0, 0, 0), (100, 0, 0), (100, 200, 0), (0, 200, 300)], [(0, 1, 2, 3)])
         made.location = (0, 0, 50)
@@ -23,7 +23,7 @@ class Meshes(fixtures.SceneTest):
         self.assert_near(mesh.mesh.positions, [0, .5, 0, 1, .5, 0, 1, .5, -2, 0, 3.5, -2])
         self.assertEqual(list(mesh.mesh.polygon_points), [0, 1, 2, 3])
 
-    def test_quads_and_polygons_stay_whole(self):
+    def test_quads_and_polygons_are_not_split(self):
         fixtures.mesh_object("pentagon", [(math.cos(i * 1.2566), math.sin(i * 1.2566), 0) for i in range(5)] + [(3, 0, 0)],
                              [(0, 1, 2, 3, 4), (0, 5, 1)])
         mesh = self.export(build=False).render_meshes[0].mesh
@@ -134,7 +134,7 @@ class Appearance(fixtures.SceneTest):
             self.assertEqual(file.read(), own)
         self.assertEqual(self.export(build=False, textures="EMBED").textures[0].bytes, own)
 
-    def test_images_of_one_name_keep_apart(self):
+    def test_images_of_one_name_get_separate_files(self):
         material, shader = fixtures.shaded("skin")
         one = fixtures.textured(material, shader, self.path("hide.png"), color=(1, 0, 0, 1))
         other = fixtures.textured(material, shader, self.path("other.png"), "Roughness", (0, 1, 0, 1))
@@ -190,7 +190,7 @@ class Appearance(fixtures.SceneTest):
 
 
 class Bones(fixtures.SceneTest):
-    def test_rest_frames_whatever_the_pose(self):
+    def test_rest_frames_in_any_pose(self):
         rig = fixtures.armature("rig", [("hip", None, (0, 0, 1), (0, 0, 1.5), 0), ("leg", "hip", (0.2, 0, 1), (0.2, -0.5, 0.5), 30)])
         rig.location = (0, 0, 1)
         rig.data.bones["leg"].use_inherit_rotation = False
@@ -205,7 +205,7 @@ class Bones(fixtures.SceneTest):
         self.assert_near(turned((0, 1, 0), leg.rotation), (0, -math.sqrt(0.5), math.sqrt(0.5)))
         self.assertEqual((hip.inherit_rotation, leg.inherit_rotation), (True, False))
 
-    def test_every_way_to_inherit_scale(self):
+    def test_every_mode_of_inherited_scale(self):
         ways = {"FULL": True, "FIX_SHEAR": True, "ALIGNED": True, "AVERAGE": True, "NONE": False, "NONE_LEGACY": False}
         rig = fixtures.armature("rig", [(way, None, (0, 0, 0), (0, 0, 1), 0) for way in ways])
         for way in ways:

@@ -67,7 +67,7 @@ class RigidObjects(fixtures.SceneTest):
         joints = {joint.name: joint for joint in self.export(build=False).joints}
         self.assertEqual({name.split()[1]: joint.kind for name, joint in joints.items()}, wanted)
 
-    def test_a_hinge_turns_about_the_objects_z(self):
+    def test_a_hinge_rotates_about_the_objects_z(self):
         hinge = self.constraint("HINGE", self.active(fixtures.box("a")), self.active(fixtures.box("b", center=(2, 0, 0))),
                                 use_limit_ang_z=True, limit_ang_z_lower=-0.5, limit_ang_z_upper=1.0, disable_collisions=False)
         hinge.location, hinge.rotation_euler = (1, 0, 0), (math.pi / 2, 0, 0)  # Z now points along -Y
@@ -149,7 +149,7 @@ class Surroundings(fixtures.SceneTest):
         self.assert_near(environment.fields[0].position, (1, 3, -2))
         self.assert_near(environment.fields[0].direction, (0, 1, 0))
 
-    def test_fields_push_as_they_push_what_blender_simulates(self):
+    def test_force_fields_act_as_in_blender(self):
         cape = fixtures.sheet("cape", 4)
         cape.modifiers.new("c", "CLOTH").settings.mass = 0.02
         bpy.ops.object.effector_add(type="WIND")
@@ -167,7 +167,7 @@ class Surroundings(fixtures.SceneTest):
         jelly.soft_body.mass = 0.5
         self.assertAlmostEqual(self.export(build=False).environment.fields[0].strength, -300 * 10 / (30 * 0.5), places=3)
 
-    def test_drag_goes_by_what_blender_calls_quadratic(self):
+    def test_drag_follows_blenders_quadratic_setting(self):
         fixtures.sheet("cape", 4).modifiers.new("c", "CLOTH").settings.mass = 0.02
         bpy.ops.object.effector_add(type="DRAG")
         field = bpy.context.object.field

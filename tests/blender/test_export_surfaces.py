@@ -99,7 +99,7 @@ class Instances(fixtures.SceneTest):
             made.links.new(one, other)
         return made
 
-    def test_what_geometry_nodes_show_is_part_of_the_mesh(self):
+    def test_geometry_of_nodes_is_part_of_the_mesh(self):
         leaf = fixtures.box("leaf", (0.1, 0.1, 0.1))
         green, _ = fixtures.shaded("green")
         leaf.data.materials.append(green)

@@ -18,7 +18,7 @@ class RoundTrip(fixtures.RoundTripTest):
             self.skipTest(f"{name} is not there")
         return path
 
-    def test_every_bundle_comes_back_equal(self):
+    def test_every_bundle_round_trips(self):
         paths = sorted(glob.glob(os.path.join(fixtures.BUNDLES, "*.sbf*")))
         self.assertGreater(len(paths), 10)
         for path in paths:
@@ -26,7 +26,7 @@ class RoundTrip(fixtures.RoundTripTest):
                 fixtures.fresh_scene()
                 self.comes_back_equal(path)
 
-    def test_a_saved_scene_still_knows(self):
+    def test_a_saved_scene_exports_the_imported_parts(self):
         path = self.bundle("lizard.sbf")
         self.import_(path)
         bpy.ops.wm.save_as_mainfile(filepath=self.path("scene.blend"))
@@ -35,7 +35,7 @@ class RoundTrip(fixtures.RoundTripTest):
         with sbfmt.load(path) as one, sbfmt.load(self.path("again.sbf")) as other:
             self.assertIsNone(one.equals(other))
 
-    def test_what_was_changed_is_changed_and_nothing_else(self):
+    def test_export_changes_only_edited_parts(self):
         path = self.bundle("lizard.sbf")
         before = read_document(path)
         self.import_(path)
@@ -95,7 +95,7 @@ class RoundTrip(fixtures.RoundTripTest):
             at = made.vertices[corner.vertex_index].co
             self.assert_near(position.uv, (at.x, -at.y), 1e-5)
 
-    def test_a_broken_file_is_refused_in_blenders_way(self):
+    def test_a_broken_file_raises_a_runtime_error(self):
         with open(self.path("bad.sbf"), "w", encoding="utf-8") as file:
             file.write("<sbf version='1.0'><bone/></sbf>")
         objects = len(bpy.data.objects)

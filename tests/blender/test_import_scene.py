@@ -84,7 +84,7 @@ class Scene(fixtures.SceneTest):
         self.assertEqual({body.id for body in again.rigid_bodies}, {body.id for body in first.rigid_bodies})
         for body in first.rigid_bodies:
             found = again.find("rigid_bodies", body.id)
-            self.assertEqual(found.name.split(".")[0], body.name)  # "b.001" where "b" is what is seen of it
+            self.assertEqual(found.name.split(".")[0], body.name)  # "b.001" if "b" is its visible object
             for name in ("motion", "mass", "friction", "restitution", "layer"):
                 self.assertEqual(getattr(found, name), getattr(body, name), name)
             self.assert_near(sorted(found.hull.positions), sorted(body.hull.positions), 1e-6)

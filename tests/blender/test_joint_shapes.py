@@ -26,7 +26,7 @@ class Shapes(fixtures.SceneTest):
         self.assertAlmostEqual(maximum[1], 0.5, delta=1e-3)
         self.assertAlmostEqual(maximum[-1], 0.2, delta=1e-3)
 
-    def test_a_range_without_rest_stays_where_it_is(self):
+    def test_a_range_that_excludes_rest_is_drawn_as_stated(self):
         rim = self.rim({"swing_y": (0.5, 1.0), "swing_z": (-0.1, 0.1), "swing": (0, 0.3)})
         self.assertGreater(min(math.acos(x) for x, _, _ in rim), 0.49)
 
@@ -38,14 +38,14 @@ class Shapes(fixtures.SceneTest):
             found = joint_shapes.measure(full.w, full.x, full.y, full.z)
             self.assert_near((found["swing_y"], found["swing_z"], found["twist"]), (y, z, 0.6), 1e-5)
 
-    def test_a_hinge_shows_where_the_bone_goes(self):
+    def test_a_hinge_shows_the_range_of_the_bone(self):
         shape = joint_shapes.shape_of("revolute", {"twist": (0, math.pi / 2)}, (0, 1, 0))
         ends = shape.lines["twist"]
         self.assert_near(ends[0], (0, 0.8, 0))
         self.assertTrue(any(numpy.allclose(one, (0, 0, 0.8), atol=1e-6) for one in ends))
         self.assertLess(float(abs(ends[:, 0]).max()), 1e-9)
 
-    def test_a_slider_shows_its_way_in_lengths_of_the_bone(self):
+    def test_a_slider_shows_its_range_in_bone_lengths(self):
         ends = joint_shapes.shape_of("prismatic", {"linear_x": (-0.1, 0.2)}, slide_scale=2).lines["slide"]
         self.assertAlmostEqual(float(ends[:, 0].min()), -0.2)
         self.assertAlmostEqual(float(ends[:, 0].max()), 0.4)
@@ -66,7 +66,7 @@ class Scene(fixtures.SceneTest):
             setattr(joint, name, value)
         return joint
 
-    def test_a_cone_stands_on_the_bones_head_and_follows_the_bone_above(self):
+    def test_a_cone_starts_at_the_bones_head_and_follows_the_parent(self):
         self.joint(kind="spherical", use_cone=True, cone=0.5)
         points = joints.collect(bpy.context)["cone"][1].reshape(-1, 3, 3)
         self.assert_near(points[0, 0], (1, 2, 5), 1e-5)
@@ -93,7 +93,7 @@ class Scene(fixtures.SceneTest):
         one.owner_space, one.use_limit_x, one.min_x, one.max_x = "LOCAL", True, -0.3, 0.6
         self.assertIn("swing_z", joints.collect(bpy.context))
 
-    def test_only_what_is_selected(self):
+    def test_only_selected_objects(self):
         self.joint(kind="revolute", axis="X", use_twist=True)
         self.scene.soft_body_format.show_joints = "SELECTED"
         bpy.context.view_layer.objects.active = self.rig

@@ -59,7 +59,7 @@ class Frames(PreviewTest):
         self.assertGreater(float(places("blob (preview)")[:, 2].min()), -0.01)
         self.assertLess(float(places("blob (preview)")[:, 2].min()), 0.02)
 
-    def test_steps_back_and_far_ahead_begin_anew(self):
+    def test_steps_backward_and_far_ahead_restart(self):
         self.blob()
         self.scene.frame_set(1)
         self.start()
@@ -109,7 +109,7 @@ class Frames(PreviewTest):
         copy = bpy.data.objects["rig (preview)"].pose.bones["arm"]
         self.assertAlmostEqual(copy.matrix_basis.translation.x, 1.0, delta=0.05)
 
-    def test_a_mirrored_and_turned_object_begins_where_it_is(self):
+    def test_a_mirrored_and_rotated_object_starts_in_place(self):
         made = self.blob()
         made.matrix_world = made.matrix_world.copy()
         made.scale, made.rotation_euler, made.location = (-1, 1, 1), (0.3, 0.2, 0.1), (1, 2, 3)
@@ -120,7 +120,7 @@ class Frames(PreviewTest):
         self.assert_near(numpy.ravel(found), [one for place in wanted for one in place], 1e-4)
 
 
-    def test_what_a_collection_instance_shows(self):
+    def test_preview_of_a_collection_instance(self):
         made = self.blob()
         inside = bpy.data.collections.new("inside")
         self.scene.collection.objects.unlink(made)
@@ -153,7 +153,7 @@ class Comings(PreviewTest):
         self.assertFalse(made.hide_get())
         self.assertEqual({name: len(getattr(bpy.data, name)) for name in before}, before)
 
-    def test_nothing_of_the_runtime_is_left(self):
+    def test_stopping_frees_the_runtime(self):
         self.blob()
         for _ in range(3):
             self.start()
@@ -172,7 +172,7 @@ class Comings(PreviewTest):
         with open(self.path("before.sbf"), "rb") as one, open(self.path("during.sbf"), "rb") as other:
             self.assertEqual(one.read(), other.read())
 
-    def test_a_copy_that_is_deleted_ends_it(self):
+    def test_deleting_a_copy_ends_the_preview(self):
         made = self.blob()
         self.start()
         bpy.data.objects.remove(bpy.data.objects["blob (preview)"])
@@ -180,7 +180,7 @@ class Comings(PreviewTest):
         self.assertIsNone(handlers.running())
         self.assertFalse(made.hide_get())
 
-    def test_saving_leaves_the_copies_out_and_loading_ends_it(self):
+    def test_saving_skips_copies_and_loading_ends_the_preview(self):
         self.blob()
         self.start()
         bpy.ops.wm.save_as_mainfile(filepath=self.path("scene.blend"))
@@ -206,7 +206,7 @@ class Comings(PreviewTest):
         self.assertFalse(bpy.data.objects["blob"].hide_get())
         del made
 
-    def test_a_render_is_left_alone(self):
+    def test_the_preview_does_not_step_during_a_render(self):
         self.blob()
         session = self.start()
         frame = session.frame
@@ -254,7 +254,7 @@ class Walks(PreviewTest):
         self.scene.frame_set(1)
         self.assertLess(float(numpy.linalg.norm(session.ground_position()[0])), 0.05)
 
-    def test_without_a_curve_it_stands_and_reports_it(self):
+    def test_a_missing_curve_is_reported_and_the_character_stands(self):
         self.load("lizard.sbf")
         self.settings.drive = "CURVE"
         session = self.start()

@@ -60,7 +60,7 @@ class ProposedGait(fixtures.SceneTest):
         self.assertEqual({leg.name for leg in written.gaits[0].legs}, set(group))
         self.assertGreater(written.gaits[0].step_height, 0.02)
 
-    def test_anew_over_what_was_filled_in_and_beside_ik_constraints(self):
+    def test_a_second_proposal_replaces_entries_and_keeps_ik_constraints(self):
         characters.biped()
         rig, gait = bpy.data.objects["biped"], self.scene.soft_body_format.gait
         target = fixtures.link(bpy.data.objects.new("target", None))
@@ -112,7 +112,7 @@ class ProposedGait(fixtures.SceneTest):
                 self.assertAlmostEqual(one.sole, other.sole, delta=1e-5)
             self.assert_near(turned.environment.gravity, (0, -9.81, 0), 1e-5)
 
-    def test_feet_that_are_moved_by_hand_hang_on_their_legs(self):
+    def test_feet_animated_by_hand_are_attached_to_their_legs(self):
         rig = stork()
         self.assertEqual(bpy.ops.sbfmt.propose_gait(), {"FINISHED"})
         gait = self.scene.soft_body_format.gait
@@ -139,7 +139,7 @@ class ProposedGait(fixtures.SceneTest):
         self.assertEqual(bpy.ops.sbfmt.propose_gait(), {"FINISHED"})
         self.assertEqual(len(self.scene.soft_body_format.gait.legs), 2)
 
-    def test_legs_that_stay_unfound_leave_all_as_it_was(self):
+    def test_missing_legs_change_nothing(self):
         rig = stork()
         place(Matrix.Rotation(math.radians(180), 4, "X"))
         settings = self.scene.soft_body_format
@@ -192,7 +192,7 @@ class ProposedGait(fixtures.SceneTest):
         shin = bpy.data.objects["stork (preview)"].pose.bones["shin.L"]
         self.assertLess((foot.head - shin.tail).length, 0.02)
 
-    def test_bones_of_a_library_can_not_be_hung_elsewhere(self):
+    def test_linked_bones_cannot_be_attached_elsewhere(self):
         stork()
         bpy.ops.wm.save_as_mainfile(filepath=self.path("library.blend"))
         fixtures.fresh_scene()

@@ -15,7 +15,7 @@ class Mends(fixtures.SceneTest):
         settings = self.scene.soft_body_format
         self.assertIn(code, self.check())
         index = next(i for i, one in enumerate(settings.findings) if one.code == code)
-        self.assertIsNotNone(repair_of(settings.findings[index], settings.mends_files))
+        self.assertIsNotNone(repair_of(settings.findings[index], settings.repairs_files))
         self.assertEqual(bpy.ops.sbfmt.repair(index=index), {"FINISHED"})
         return {one.code for one in settings.findings}
 
@@ -31,7 +31,7 @@ class Mends(fixtures.SceneTest):
         made.data.polygons[5].flip()
         self.assertNotIn("SURFACE_WINDING", self.repair("SURFACE_WINDING"))
 
-    def test_loose_vertices_go_and_groups_stay(self):
+    def test_loose_vertices_are_removed_and_groups_kept(self):
         made = fixtures.box("b")
         made.data.vertices.add(1)
         made.vertex_groups.new(name="g").add([3], 0.5, "REPLACE")
@@ -69,7 +69,7 @@ class Mends(fixtures.SceneTest):
         self.assertAlmostEqual(joint.twist_min, -0.25)
         self.assertAlmostEqual(joint.twist_max, 0.5)
 
-    def test_faults_in_the_file_are_repaired_there(self):
+    def test_faults_in_the_file_are_repaired_in_the_file(self):
         rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])
         made = fixtures.ball("belly")
         fixtures.hang(made, rig, "hip")
@@ -78,7 +78,7 @@ class Mends(fixtures.SceneTest):
             pin = made.soft_body_format.pins.add()
             pin.group, pin.armature, pin.bone = "g", rig, "hip"
         self.repair("PIN_REPEATED")
-        self.assertTrue(self.scene.soft_body_format.mends_files)
+        self.assertTrue(self.scene.soft_body_format.repairs_files)
         reported = [one.message for one in self.scene.soft_body_format.findings if one.code == "PIN_REPEATED"]
         self.assertTrue(reported and all(one.startswith("repaired in the file") for one in reported), reported)
         self.assertEqual(sum(len(pins.points) for pins in self.export(build=False).soft_bodies[0].pins), 3)
@@ -91,7 +91,7 @@ class Mends(fixtures.SceneTest):
         self.assertEqual(bpy.ops.sbfmt.repair(index=-1), {"FINISHED"})
         self.assertNotIn("SURFACE_INSIDE_OUT", {one.code for one in self.scene.soft_body_format.findings})
 
-    def test_what_has_no_one_answer_stays(self):
+    def test_ambiguous_faults_are_not_repaired(self):
         fixtures.sheet("open")
         settings = self.scene.soft_body_format
         bpy.ops.sbfmt.check()
@@ -101,7 +101,7 @@ class Mends(fixtures.SceneTest):
 
 
 class Copies(fixtures.SceneTest):
-    def test_an_objects_settings_go_to_the_selected(self):
+    def test_settings_are_copied_to_selected_objects(self):
         one, other, third = (fixtures.box(name) for name in ("one", "other", "third"))
         one.soft_body_format.attributes.preset = "rubber"
         one.soft_body_format.attributes.young_modulus = 5e5
@@ -120,7 +120,7 @@ class Copies(fixtures.SceneTest):
         other.select_set(False)
         self.assertFalse(bpy.ops.sbfmt.copy_object.poll())
 
-    def test_a_joint_goes_to_the_other_side_mirrored(self):
+    def test_a_joint_is_mirrored_to_the_other_side(self):
         rig = fixtures.armature("rig", [("hip", None, (0, 0, 2), (0, 0, 3), 0), ("leg.L", "hip", (1, 0, 2), (1, 0, 1), 0),
                                         ("leg.R", "hip", (-1, 0, 2), (-1, 0, 1), 0)])
         bpy.context.view_layer.objects.active = rig

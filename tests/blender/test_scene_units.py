@@ -19,7 +19,7 @@ class OtherUnits(fixtures.SceneTest):
     def extent(self, positions):
         return [max(positions[k::3]) - min(positions[k::3]) for k in range(3)]
 
-    def test_lengths_are_in_metres_whatever_the_unit(self):
+    def test_lengths_are_in_metres_for_any_unit(self):
         for system, length, size in (("METRIC", 0.01, 100), ("METRIC", 1, 1), ("IMPERIAL", 0.3048, 1 / 0.3048), ("NONE", 0.01, 1)):
             with self.subTest(system=system, length=length):
                 self.scene = fixtures.fresh_scene()
@@ -100,7 +100,7 @@ class OtherUnits(fixtures.SceneTest):
 
 
 class UnevenScale(fixtures.SceneTest):
-    def test_custom_normals_stay_square_to_what_they_were_square_to(self):
+    def test_custom_normals_stay_perpendicular(self):
         """Of a plane through the normal's tangents: M maps these, and the normal by its inverse transpose."""
         made = fixtures.mesh_object("m", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
         wanted = [Vector(v).normalized() for v in ((1, 0, 2), (0, 1, 2), (-1, 1, 1), (0, -2, 1))]
@@ -138,7 +138,7 @@ class SeveralBones(fixtures.SceneTest):
         names = {bone.id: bone.name for bone in asset.bones}
         return {names.get(pins.bone): sorted(pins.points) for pins in asset.soft_bodies[0].pins}
 
-    def test_each_point_goes_with_its_strongest_bone(self):
+    def test_each_point_follows_its_strongest_bone(self):
         for kind in ("SOFT_BODY", "CLOTH"):
             self.scene = fixtures.fresh_scene()
             self.assertEqual(self.held(kind), {"left": [0], "right": [1, 2]}, kind)
@@ -150,7 +150,7 @@ class Placement(fixtures.SceneTest):
         fixtures.box("b", (1, 1, 1), (0, 0, 0.75)).modifiers.new("s", "SOFT_BODY")
         self.assertAlmostEqual(min(self.export(build=False).soft_bodies[0].surface.positions[1::3]), 0, places=6)
 
-    def test_texture_corners_go_with_their_points_where_an_object_is_mirrored(self):
+    def test_mirrored_objects_keep_uvs_at_their_vertices(self):
         for mirror in (1, -1):
             self.scene = fixtures.fresh_scene()
             made = fixtures.mesh_object("m", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])

@@ -1,4 +1,4 @@
-"""Real files, converted: imported and exported again they are equal. Whatever is odd in them must neither be lost nor stop Blender."""
+"""Real files, converted: imported and exported again they are equal. Unusual content must neither be lost nor stop Blender."""
 
 import glob
 import os
@@ -7,7 +7,7 @@ import fixtures
 
 
 class Shared(fixtures.RoundTripTest):
-    def test_every_file_comes_back_equal(self):
+    def test_every_file_round_trips(self):
         paths = sorted(glob.glob(os.path.join(fixtures.BUNDLES, "*.sbf")))
         self.assertGreater(len(paths), 30)
         for path in paths:

@@ -54,7 +54,7 @@ class Walkthrough(fixtures.SceneTest):
         super().setUp()
         self.addCleanup(handlers.stop)
 
-    def test_the_words_are_those_on_the_screen(self):
+    def test_documented_labels_match_the_screen(self):
         known = labels() | OTHERS
         for title, count in (("Step by step: a ball of jelly", 8), ("Step by step: a lizard takes a walk", 10)):
             found = steps(title)
@@ -94,7 +94,7 @@ class Walkthrough(fixtures.SceneTest):
         self.assertEqual(bpy.ops.export_scene.soft_body_format(filepath=self.path("jelly.sbfz")), {"FINISHED"})  # 8
         shutil.copy(self.path("jelly.sbfz"), KEPT)
 
-    def test_a_lizard_takes_a_walk(self):
+    def test_the_example_lizard_walks(self):
         if not os.path.exists(BUNDLE):
             self.skipTest("the program has made no bundle of the lizard")
         bpy.ops.import_scene.soft_body_format(filepath=BUNDLE)  # 2

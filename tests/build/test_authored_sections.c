@@ -92,7 +92,7 @@ START_TEST(a_small_part_of_the_skins_does_not_decide)
 }
 END_TEST
 
-START_TEST(another_skeleton_does_not_count)
+START_TEST(another_skeleton_is_ignored)
 {
   make_patch(0, 8, 0, 0);
   make_patch(1, POINTS, 0.5f, 1);
@@ -107,7 +107,7 @@ int main(void) {
   tcase_add_checked_fixture(tests, setup, teardown);
   tcase_add_test(tests, a_skin_along_a_body_has_sections);
   tcase_add_test(tests, a_small_part_of_the_skins_does_not_decide);
-  tcase_add_test(tests, another_skeleton_does_not_count);
+  tcase_add_test(tests, another_skeleton_is_ignored);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

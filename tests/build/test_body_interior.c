@@ -20,7 +20,7 @@ static sbf_build_interior automatic(void) {
   return sbfi_body_interior(&options, body);
 }
 
-START_TEST(what_hangs_on_a_bone_gets_springs_to_its_centre)
+START_TEST(bodies_on_a_bone_get_springs_to_their_centre)
 {
   ck_assert_int_eq(automatic(), SBF_BUILD_INTERIOR_TETRAHEDRA);
   body->bone = 0;
@@ -30,7 +30,7 @@ START_TEST(what_hangs_on_a_bone_gets_springs_to_its_centre)
 }
 END_TEST
 
-START_TEST(nothing_fills_a_sheet)
+START_TEST(a_sheet_gets_no_interior_points)
 {
   body->surface.polygon_sizes.count = 1; /* of its sides */
   body->surface.polygon_points.count = body->surface.polygon_sizes.at[0];
@@ -57,8 +57,8 @@ int main(void) {
   Suite *s = suite_create("body_interior");
   TCase *c = tcase_create("body_interior");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, what_hangs_on_a_bone_gets_springs_to_its_centre);
-  tcase_add_test(c, nothing_fills_a_sheet);
+  tcase_add_test(c, bodies_on_a_bone_get_springs_to_their_centre);
+  tcase_add_test(c, a_sheet_gets_no_interior_points);
   tcase_add_test(c, a_loose_cloud_of_springs_is_not_calibrated);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -34,7 +34,7 @@ END_TEST
 
 START_TEST(of_equals_the_lowest_number)
 {
-  /* A hundred boxes, all in one place: whatever the tree's order, it is item 0. */
+  /* A hundred boxes at one position: item 0 in any order of the tree. */
   sbfi_box boxes[100];
   for (int i = 0; i < 100; i++) boxes[i] = (sbfi_box){{1, 1, 1}, {2, 2, 2}};
   sbfi_box_tree tree;

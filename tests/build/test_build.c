@@ -142,7 +142,7 @@ START_TEST(building_twice_changes_nothing)
 }
 END_TEST
 
-START_TEST(the_hash_is_of_what_was_read)
+START_TEST(the_hash_covers_the_source_that_was_read)
 {
   add_cube(asset);
   sbf_asset *built = build(asset, NULL, NULL);
@@ -207,7 +207,7 @@ START_TEST(sheets_and_free_bodies)
 }
 END_TEST
 
-START_TEST(authored_parts_stay)
+START_TEST(authored_parts_are_kept)
 {
   add_cube(asset);
   sbf_polygon_mesh second = shape_cube(asset, 1, 0.3f, (sbf_vec3){1, 1, 0});
@@ -297,7 +297,7 @@ START_TEST(any_sound_asset_builds)
 }
 END_TEST
 
-START_TEST(sizes_beyond_measure_are_refused)
+START_TEST(excessive_sizes_are_refused)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 2, 1e30f, (sbf_vec3){0, 0, 0});
   shape_add_body(asset, "huge", &cube, true);
@@ -316,7 +316,7 @@ static void note(void *user, const sbf_diagnostic *diagnostic) {
   if (warning_count < 8) warnings[warning_count++] = diagnostic->code;
 }
 
-START_TEST(warnings_say_what_was_not_made)
+START_TEST(warnings_name_missing_parts)
 {
   sbf_polygon_mesh sheet = shape_sheet(asset, 2, 2), nothing;
   sbf_polygon_mesh_init(&nothing);
@@ -345,7 +345,7 @@ static bool stop_at(void *user, const char *pass, double done) {
   return --*left >= 0;
 }
 
-START_TEST(cancelling_leaves_nothing)
+START_TEST(cancelling_frees_everything)
 {
   add_cube(asset);
   for (int allowed = 0;; allowed += HARNESS_FEW(1, 5)) {
@@ -390,8 +390,8 @@ START_TEST(every_allocation_may_fail)
 }
 END_TEST
 
-/* A scene of many bodies is not as many times as dear as one. */
-START_TEST(bodies_that_nobody_sizes_share)
+/* The cost of a scene of many bodies is less than proportional to their number. */
+START_TEST(bodies_without_a_stated_size_divide_the_default)
 {
   enum { BODIES = 40 };
   const uint32_t alone[] = {1, BODIES};
@@ -408,7 +408,7 @@ START_TEST(bodies_that_nobody_sizes_share)
     sbf_build_report report;
     sbf_build_options options = {.without_calibration = true};
     sbf_asset *built = build(asset, &options, &report);
-    tetrahedra[k] = report.tetrahedra;
+    tetrahedra[k] = report.lattices.tetrahedra;
     sbf_asset_free(built);
   }
   ck_assert_uint_gt(tetrahedra[0], 1000);
@@ -422,18 +422,18 @@ static Suite *suite(void) {
   TCase *c = tcase_create("build");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, reference_lizard);
-  tcase_add_test(c, bodies_that_nobody_sizes_share);
+  tcase_add_test(c, bodies_without_a_stated_size_divide_the_default);
   tcase_add_test(c, a_cube_in_full);
   tcase_add_test(c, building_twice_changes_nothing);
-  tcase_add_test(c, the_hash_is_of_what_was_read);
+  tcase_add_test(c, the_hash_covers_the_source_that_was_read);
   tcase_add_test(c, settings_are_applied);
   tcase_add_test(c, sheets_and_free_bodies);
-  tcase_add_test(c, authored_parts_stay);
+  tcase_add_test(c, authored_parts_are_kept);
   tcase_add_test(c, references_to_derived_parts_are_found_again);
   tcase_add_test(c, any_sound_asset_builds);
-  tcase_add_test(c, sizes_beyond_measure_are_refused);
-  tcase_add_test(c, warnings_say_what_was_not_made);
-  tcase_add_test(c, cancelling_leaves_nothing);
+  tcase_add_test(c, excessive_sizes_are_refused);
+  tcase_add_test(c, warnings_name_missing_parts);
+  tcase_add_test(c, cancelling_frees_everything);
   tcase_add_test(c, every_allocation_may_fail);
   suite_add_tcase(s, c);
   return s;

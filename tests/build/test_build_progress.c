@@ -80,7 +80,7 @@ START_TEST(tetrahedra_and_their_levels)
   sbf_build_options options = {
       .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 400, .without_calibration = true};
   ck_assert_int_ge(end_everywhere(asset, HARNESS_FEW(1, 5), options), 30);
-  /* What it is compared with takes long: here it is ended while that is made, and while it is loaded. */
+  /* The reference takes long: cancels while it is made, and while it is loaded. */
   options.without_calibration = false;
   options.levels = 3;
   ck_assert_int_ge(end_everywhere(asset, HARNESS_FEW(40, 200), options), 60);
@@ -109,7 +109,7 @@ START_TEST(sections_of_a_skin)
 }
 END_TEST
 
-START_TEST(it_grows)
+START_TEST(progress_increases)
 {
   sbf_asset *asset = ball();
   listener l = {.left = -1};
@@ -130,7 +130,7 @@ static Suite *suite(void) {
   tcase_add_test(c, tetrahedra_and_their_levels);
   tcase_add_test(c, render_levels);
   tcase_add_test(c, sections_of_a_skin);
-  tcase_add_test(c, it_grows);
+  tcase_add_test(c, progress_increases);
   suite_add_tcase(s, c);
   return s;
 }

@@ -3,7 +3,7 @@
 #include "build/build_settings.h"
 #include "harness.h"
 
-START_TEST(test_what_a_build_states)
+START_TEST(test_recorded_settings)
 {
   sbf_build_options options = {0};
   ck_assert(
@@ -14,7 +14,7 @@ START_TEST(test_what_a_build_states)
 }
 END_TEST
 
-START_TEST(test_what_is_written_is_read)
+START_TEST(test_written_settings_are_read)
 {
   static const sbf_build_options samples[] = {
       {0},
@@ -54,7 +54,7 @@ START_TEST(test_cells_are_whole_micrometres)
 }
 END_TEST
 
-START_TEST(test_what_it_does_not_know)
+START_TEST(test_unknown_settings)
 {
   sbf_build_options options = {0};
   ck_assert(!sbfi_build_settings_read("interior=unheard_of", &options));
@@ -71,10 +71,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("build_settings");
   TCase *all = tcase_create("all");
-  tcase_add_test(all, test_what_a_build_states);
-  tcase_add_test(all, test_what_is_written_is_read);
+  tcase_add_test(all, test_recorded_settings);
+  tcase_add_test(all, test_written_settings_are_read);
   tcase_add_test(all, test_cells_are_whole_micrometres);
-  tcase_add_test(all, test_what_it_does_not_know);
+  tcase_add_test(all, test_unknown_settings);
   suite_add_tcase(suite, all);
   return harness_run(suite);
 }

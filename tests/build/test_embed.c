@@ -51,7 +51,7 @@ static const sbf_embedding *embedding_of(const sbf_asset *built, uint32_t body) 
   return NULL;
 }
 
-START_TEST(a_skin_goes_by_its_weights)
+START_TEST(a_skin_follows_its_weights)
 {
   const sbf_vec3 positions[] = {{0, 0.5f, 0}, {0.5f, 0.5f, 0}, {2.4f, 0.5f, 0}, {0.5f, 0, 0.5f}, {9, 9, 9}};
   const uint32_t counts[] = {1, 2, 2, 3, 1};
@@ -83,7 +83,7 @@ START_TEST(a_skin_goes_by_its_weights)
 }
 END_TEST
 
-START_TEST(a_mesh_on_a_bone_goes_whole)
+START_TEST(a_mesh_on_a_bone_is_embedded_in_one_body)
 {
   mesh.mesh = asset->soft_bodies.at[1].surface;
   mesh.mesh.target = SBF_MESH_TARGET_RENDERING;
@@ -105,7 +105,7 @@ START_TEST(a_mesh_on_a_bone_goes_whole)
 }
 END_TEST
 
-START_TEST(a_leaf_goes_with_its_ancestor)
+START_TEST(a_mesh_on_a_leaf_bone_embeds_in_its_ancestors_body)
 {
   mesh.mesh.positions = asset->soft_bodies.at[2].surface.positions;
   mesh.bone = 3;
@@ -115,7 +115,7 @@ START_TEST(a_leaf_goes_with_its_ancestor)
 }
 END_TEST
 
-START_TEST(a_mesh_without_bones_goes_to_the_nearest)
+START_TEST(a_mesh_without_bones_embeds_in_the_nearest_body)
 {
   const sbf_vec3 positions[] = {{-0.6f, 0, 0}, {2.6f, 0, 0}, {1, 0.6f, 0}, {0, 0.7f, 0}};
   mesh.mesh.positions = (sbf_vec3_list){positions, 4};
@@ -129,7 +129,7 @@ START_TEST(a_mesh_without_bones_goes_to_the_nearest)
 }
 END_TEST
 
-START_TEST(a_body_carries_its_own_picture)
+START_TEST(a_body_carries_its_own_render_mesh)
 {
   /* Two cubes that share a face: the second's mesh goes to the second, also where they touch. */
   mesh.mesh = asset->soft_bodies.at[1].surface;
@@ -142,7 +142,7 @@ START_TEST(a_body_carries_its_own_picture)
 }
 END_TEST
 
-START_TEST(nothing_carries_a_mesh_apart)
+START_TEST(a_mesh_outside_all_bodies_is_not_embedded)
 {
   const sbf_vec3 position = {0, 0, 0};
   mesh.mesh.positions = (sbf_vec3_list){&position, 1};
@@ -155,7 +155,7 @@ START_TEST(nothing_carries_a_mesh_apart)
 }
 END_TEST
 
-START_TEST(authored_embeddings_stay)
+START_TEST(authored_embeddings_are_kept)
 {
   sbf_level level;
   sbf_level_init(&level);
@@ -224,7 +224,7 @@ static bool is_pinned_to(const sbf_level *level, uint32_t point, int32_t bone) {
 }
 
 /* A sword in the hand: its tip is twenty hands away. */
-START_TEST(what_is_far_from_a_pinned_body_follows_its_bone)
+START_TEST(vertices_far_from_a_pinned_body_follow_its_bone)
 {
   const sbf_vec3 positions[] = {{1, 0.6f, 0}, {1, 20, 0}, {4, 12, -7}};
   mesh.mesh.positions = (sbf_vec3_list){positions, 3};
@@ -239,7 +239,7 @@ START_TEST(what_is_far_from_a_pinned_body_follows_its_bone)
 }
 END_TEST
 
-START_TEST(a_body_without_pins_gets_none_by_what_it_carries)
+START_TEST(embedding_adds_no_pins)
 {
   const sbf_vec3 positions[] = {{1, 0.6f, 0}, {1, 20, 0}};
   mesh.mesh.positions = (sbf_vec3_list){positions, 2};
@@ -262,16 +262,16 @@ static Suite *suite(void) {
   Suite *s = suite_create("embed");
   TCase *c = tcase_create("embed");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, a_skin_goes_by_its_weights);
-  tcase_add_test(c, a_mesh_on_a_bone_goes_whole);
-  tcase_add_test(c, a_leaf_goes_with_its_ancestor);
-  tcase_add_test(c, a_mesh_without_bones_goes_to_the_nearest);
-  tcase_add_test(c, a_body_carries_its_own_picture);
-  tcase_add_test(c, nothing_carries_a_mesh_apart);
-  tcase_add_test(c, authored_embeddings_stay);
+  tcase_add_test(c, a_skin_follows_its_weights);
+  tcase_add_test(c, a_mesh_on_a_bone_is_embedded_in_one_body);
+  tcase_add_test(c, a_mesh_on_a_leaf_bone_embeds_in_its_ancestors_body);
+  tcase_add_test(c, a_mesh_without_bones_embeds_in_the_nearest_body);
+  tcase_add_test(c, a_body_carries_its_own_render_mesh);
+  tcase_add_test(c, a_mesh_outside_all_bodies_is_not_embedded);
+  tcase_add_test(c, authored_embeddings_are_kept);
   tcase_add_test(c, of_two_bodies_on_a_bone_the_nearer);
-  tcase_add_test(c, what_is_far_from_a_pinned_body_follows_its_bone);
-  tcase_add_test(c, a_body_without_pins_gets_none_by_what_it_carries);
+  tcase_add_test(c, vertices_far_from_a_pinned_body_follow_its_bone);
+  tcase_add_test(c, embedding_adds_no_pins);
   suite_add_tcase(s, c);
   return s;
 }

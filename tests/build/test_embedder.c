@@ -102,7 +102,7 @@ START_TEST(anywhere_around_a_cube)
 }
 END_TEST
 
-START_TEST(a_deformed_body_takes_its_vertices_along)
+START_TEST(vertices_follow_a_deformed_body)
 {
   sbf_polygon_mesh mesh = shape_cube(asset, 3, 2, (sbf_vec3){0, 0, 0});
   sbf_level level;
@@ -146,7 +146,7 @@ START_TEST(long_bodies_keep_small_weights)
 }
 END_TEST
 
-START_TEST(flat_bodies_say_how_far_off)
+START_TEST(flat_bodies_report_distances)
 {
   sbf_polygon_mesh mesh = shape_sheet(asset, 3, 3);
   sbf_level level;
@@ -220,7 +220,7 @@ static sbf_level fork_level(void) {
 }
 
 /* Not on points of the whole body: then a tip would stay where it is when its prong bends. */
-START_TEST(what_lies_beside_a_tip_hangs_on_its_own_prong)
+START_TEST(vertices_beside_a_tip_embed_in_their_own_prong)
 {
   sbf_polygon_mesh mesh = shape_cube(asset, 1, 1, (sbf_vec3){0.5f, 0.5f, 0.5f});
   sbf_soft_body *body = shape_add_body(asset, "fork", &mesh, true);
@@ -273,11 +273,11 @@ static Suite *suite(void) {
   tcase_add_test(c, surface_points_embed_themselves);
   tcase_add_test(c, of_equal_points_the_likely_one);
   tcase_add_test(c, anywhere_around_a_cube);
-  tcase_add_test(c, a_deformed_body_takes_its_vertices_along);
+  tcase_add_test(c, vertices_follow_a_deformed_body);
   tcase_add_test(c, long_bodies_keep_small_weights);
-  tcase_add_test(c, flat_bodies_say_how_far_off);
+  tcase_add_test(c, flat_bodies_report_distances);
   tcase_add_test(c, lattices);
-  tcase_add_test(c, what_lies_beside_a_tip_hangs_on_its_own_prong);
+  tcase_add_test(c, vertices_beside_a_tip_embed_in_their_own_prong);
   tcase_add_test(c, points_without_polygons);
   suite_add_tcase(s, c);
   return s;

@@ -69,7 +69,7 @@ static void change(sbf_soft_body *body, int what) {
   }
 }
 
-START_TEST(what_differs_is_not_equal)
+START_TEST(different_bodies_are_not_equal)
 {
   sbfi_d3 offset;
   add_cube("a", 0.2f, (sbf_vec3){0, 1, 0});
@@ -79,7 +79,7 @@ START_TEST(what_differs_is_not_equal)
 END_TEST
 
 /* Bones and pins hold at a position of their own. */
-START_TEST(what_is_held_equals_nothing)
+START_TEST(pinned_bodies_equal_no_other)
 {
   sbfi_d3 offset;
   change(add_cube("a", 0.2f, (sbf_vec3){0, 1, 0}), _i);
@@ -94,7 +94,7 @@ static void count_off(void *user, const sbf_diagnostic *diagnostic) {
 }
 
 /* One calibration for all that are equal, one more for the cube that is not. */
-START_TEST(copies_share_one_calibration)
+START_TEST(copies_have_one_calibration)
 {
   enum { BODIES = 12, OTHER = 7 };
   for (uint32_t i = 0; i < BODIES; i++) {
@@ -124,10 +124,10 @@ START_TEST(copies_share_one_calibration)
     }
   }
   ck_assert_uint_eq(report.bodies, BODIES);
-  ck_assert_uint_eq(report.calibrated, BODIES);
-  ck_assert_uint_eq(report.tetrahedra, tetrahedra);
+  ck_assert_uint_eq(report.lattice_calibration.count, BODIES);
+  ck_assert_uint_eq(report.lattices.tetrahedra, tetrahedra);
   uint64_t angles = 0;
-  for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) angles += report.dihedrals[k];
+  for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) angles += report.lattices.dihedrals[k];
   ck_assert_uint_eq(angles, 6 * (uint64_t)tetrahedra);
   /* Forty tetrahedra stand badly for the cube, which is reported of each of the equal bodies. */
   ck_assert_uint_eq(off_count, BODIES - 1);
@@ -140,9 +140,9 @@ static Suite *suite(void) {
   TCase *c = tcase_create("equal bodies");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_copy_elsewhere_is_found);
-  tcase_add_loop_test(c, what_differs_is_not_equal, 0, CHANGES);
-  tcase_add_loop_test(c, what_is_held_equals_nothing, BONE, CHANGES);
-  tcase_add_test(c, copies_share_one_calibration);
+  tcase_add_loop_test(c, different_bodies_are_not_equal, 0, CHANGES);
+  tcase_add_loop_test(c, pinned_bodies_equal_no_other, BONE, CHANGES);
+  tcase_add_test(c, copies_have_one_calibration);
   suite_add_tcase(s, c);
   return s;
 }

@@ -28,7 +28,7 @@ START_TEST(test_sorting)
 }
 END_TEST
 
-START_TEST(test_places)
+START_TEST(test_positions)
 {
   sbfi_key plus = sbfi_key_of_position((sbf_vec3){0, 1, 2}),
            minus = sbfi_key_of_position((sbf_vec3){-0.0f, 1, 2});
@@ -43,7 +43,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("key_set");
   tcase_add_test(c, test_values_stay_with_their_keys);
   tcase_add_test(c, test_sorting);
-  tcase_add_test(c, test_places);
+  tcase_add_test(c, test_positions);
   suite_add_tcase(s, c);
   return s;
 }

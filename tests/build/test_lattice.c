@@ -120,7 +120,7 @@ START_TEST(the_requested_count)
 }
 END_TEST
 
-START_TEST(nothing_inside_makes_nothing)
+START_TEST(an_empty_interior_makes_no_lattice)
 {
   sbf_polygon_mesh sheet = shape_sheet(asset, 4, 4), none;
   sbf_polygon_mesh_init(&none);
@@ -218,7 +218,7 @@ int main(void) {
   tcase_add_test(c, a_ball_is_approximated_within_the_square_of_the_cell);
   tcase_add_test(c, a_tilted_cube_is_approximated_within_the_square_of_the_cell);
   tcase_add_test(c, the_requested_count);
-  tcase_add_test(c, nothing_inside_makes_nothing);
+  tcase_add_test(c, an_empty_interior_makes_no_lattice);
   tcase_add_loop_test(c, real_surfaces, 0, (int)(sizeof real / sizeof *real));
   tcase_add_test(c, it_can_be_cancelled);
   tcase_add_test(c, every_allocation_may_fail);

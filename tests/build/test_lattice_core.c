@@ -38,7 +38,7 @@ START_TEST(a_tail_has_a_core_to_its_tip)
 }
 END_TEST
 
-START_TEST(what_has_no_depth_has_no_thickness)
+START_TEST(flat_bodies_have_no_thickness)
 {
   const sbf_vec3 points[2] = {{0, 0, 0}, {1, 0, 0}};
   const double depths2[2] = {0, 1e-18};
@@ -56,7 +56,7 @@ int main(void) {
   Suite *s = suite_create("lattice_core");
   TCase *c = tcase_create("lattice_core");
   tcase_add_test(c, a_tail_has_a_core_to_its_tip);
-  tcase_add_test(c, what_has_no_depth_has_no_thickness);
+  tcase_add_test(c, flat_bodies_have_no_thickness);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

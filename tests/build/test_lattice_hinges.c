@@ -34,7 +34,7 @@ static uint32_t joined(void) {
 }
 
 /* Two nodes inside, four apart along x, meet at the node between them. */
-START_TEST(a_hinge_is_taken_in)
+START_TEST(a_hinge_node_is_forced_inside)
 {
   states[node(8, 10, 10)] = states[node(12, 10, 10)] = SBFI_LATTICE_NODE_INSIDE;
   states[node(10, 10, 10)] = states[node(8, 12, 10)] = SBFI_LATTICE_NODE_ON;
@@ -45,7 +45,7 @@ START_TEST(a_hinge_is_taken_in)
 END_TEST
 
 /* The same with a way around: a ring has no hinge. */
-START_TEST(what_is_joined_elsewhere_stays)
+START_TEST(nodes_joined_elsewhere_are_unchanged)
 {
   for (int32_t x = 8; x <= 12; x += 2) states[node(x, 14, 10)] = SBFI_LATTICE_NODE_INSIDE;
   for (int32_t y = 10; y <= 14; y += 2)
@@ -138,8 +138,8 @@ static Suite *suite(void) {
   Suite *s = suite_create("lattice_hinges");
   TCase *c = tcase_create("lattice_hinges");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, a_hinge_is_taken_in);
-  tcase_add_test(c, what_is_joined_elsewhere_stays);
+  tcase_add_test(c, a_hinge_node_is_forced_inside);
+  tcase_add_test(c, nodes_joined_elsewhere_are_unchanged);
   tcase_add_test(c, neighbours_are_one_part);
   tcase_add_test(c, no_hand_of_the_armadillo_swings);
   suite_add_tcase(s, c);

@@ -53,7 +53,7 @@ static uint32_t hold(const uint8_t *taken, double width, uint32_t *core, uint32_
   return count;
 }
 
-START_TEST(each_piece_is_held_at_three_points)
+START_TEST(each_piece_is_pinned_at_three_points)
 {
   static const uint8_t taken[8] = {0};
   uint32_t core[8] = {0, 1};
@@ -64,7 +64,7 @@ START_TEST(each_piece_is_held_at_three_points)
 }
 END_TEST
 
-START_TEST(what_others_took_is_left_to_them)
+START_TEST(points_pinned_by_others_are_skipped)
 {
   static const uint8_t taken[8] = {0, 0, 1, 0, 1, 1, 1, 1};
   uint32_t core[8] = {0, 1};
@@ -73,7 +73,7 @@ START_TEST(what_others_took_is_left_to_them)
 }
 END_TEST
 
-START_TEST(what_is_too_small_is_left)
+START_TEST(small_pieces_get_no_more_pins)
 {
   static const uint8_t taken[8] = {0};
   uint32_t core[8] = {0, 1};
@@ -128,7 +128,7 @@ static sbf_asset *build(uint32_t elements, uint32_t levels, bool calibrate) {
 }
 
 /* At 60 the trunk's sections had a point or two, at 1000 the toe that comes off each foot had one. */
-START_TEST(no_section_of_the_lizard_turns_about_its_pins)
+START_TEST(no_section_of_the_lizard_rotates_about_its_pins)
 {
   static const uint32_t elements[] = {20, 60, 1000};
   sbf_asset *built = build(elements[_i], 1, false);
@@ -169,10 +169,10 @@ int main(void) {
   TCase *c = tcase_create("lattice_hold");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, lines_and_planes_are_distinguished);
-  tcase_add_test(c, each_piece_is_held_at_three_points);
-  tcase_add_test(c, what_others_took_is_left_to_them);
-  tcase_add_test(c, what_is_too_small_is_left);
-  tcase_add_loop_test(c, no_section_of_the_lizard_turns_about_its_pins, 0, 3);
+  tcase_add_test(c, each_piece_is_pinned_at_three_points);
+  tcase_add_test(c, points_pinned_by_others_are_skipped);
+  tcase_add_test(c, small_pieces_get_no_more_pins);
+  tcase_add_loop_test(c, no_section_of_the_lizard_rotates_about_its_pins, 0, 3);
   tcase_add_loop_test(c, every_error_is_less_than_an_eighth_of_its_section, 0, HARNESS_FEW(1, 0));
   suite_add_tcase(s, c);
   return harness_run(s);

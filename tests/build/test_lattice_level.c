@@ -102,13 +102,13 @@ START_TEST(a_cube_of_tetrahedra)
   ck_assert_int_eq(level->model, SBF_ELASTIC_MODEL_TETRAHEDRA);
   ck_assert_float_eq(level->cell, 0.1f);
   ck_assert_uint_eq(level->lattice.tetrahedra.count, 12 * 64 + 12 * 16);
-  ck_assert_uint_eq(report.tetrahedra, level->lattice.tetrahedra.count);
-  ck_assert_double_eq_tol(report.lattice_volume, 0.064, 1e-6);
-  ck_assert_double_ge(report.min_dihedral_deg, 44.9);
+  ck_assert_uint_eq(report.lattices.tetrahedra, level->lattice.tetrahedra.count);
+  ck_assert_double_eq_tol(report.lattices.volume, 0.064, 1e-6);
+  ck_assert_double_ge(report.lattices.min_dihedral_deg, 44.9);
   uint64_t angles = 0;
-  for (int i = 0; i < 18; i++) angles += report.dihedrals[i];
-  ck_assert_uint_eq(angles, 6 * (uint64_t)report.tetrahedra);
-  ck_assert_double_lt(report.farthest_m, 1e-6);
+  for (int i = 0; i < 18; i++) angles += report.lattices.dihedrals[i];
+  ck_assert_uint_eq(angles, 6 * (uint64_t)report.lattices.tetrahedra);
+  ck_assert_double_lt(report.lattices.farthest_m, 1e-6);
   ck_assert_uint_eq(level->springs.count + level->pins.count, 0);
   ck_assert_uint_eq(level->new_from_old.count, 26);
   ck_assert_uint_eq(level->new_from_old.at[25], UINT32_MAX);
@@ -127,7 +127,7 @@ START_TEST(a_cube_of_tetrahedra)
 }
 END_TEST
 
-START_TEST(a_section_is_held_in_its_inner_half)
+START_TEST(a_section_is_pinned_in_its_inner_half)
 {
   add_cube(2, true);
   sbf_asset *built = build((sbf_build_options){.cell_m = 0.05}, NULL);
@@ -145,7 +145,7 @@ START_TEST(a_section_is_held_in_its_inner_half)
 }
 END_TEST
 
-START_TEST(pins_on_the_surface_are_taken_over)
+START_TEST(pins_on_the_surface_are_transferred)
 {
   sbf_soft_body *body = add_cube(4, false);
   uint32_t points[40], count = 0;
@@ -311,7 +311,7 @@ static void check_shape(const sbf_level *level, const sbf_build_report *report) 
   ck_assert_uint_eq(shape.inverted_count, 0);
   ck_assert_double_ge(shape.min_dihedral_deg, 10);
   ck_assert_double_le(shape.max_dihedral_deg, 165);
-  ck_assert_mem_eq(shape.dihedrals, report->dihedrals, sizeof shape.dihedrals);
+  ck_assert_mem_eq(shape.dihedrals, report->lattices.dihedrals, sizeof shape.dihedrals);
   ck_assert_uint_eq(shape.dihedrals[0] + shape.dihedrals[17], 0);
 }
 
@@ -337,17 +337,17 @@ START_TEST(real_surfaces)
   sbf_asset *built = build((sbf_build_options){.elements = 20000}, &report);
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
   double cell = (double)level->cell;
-  ck_assert_uint_eq(report.tetrahedra, real[_i].tetrahedra);
+  ck_assert_uint_eq(report.lattices.tetrahedra, real[_i].tetrahedra);
   if (real[_i].tetrahedra == 0) {
     check_cloth(&built->soft_bodies.at[0]);
   } else {
     check_shape(level, &report);
     ck_assert_uint_eq(level->positions.count, real[_i].points);
-    ck_assert_uint_eq(report.thickened_points, real[_i].thickened);
-    ck_assert_double_eq_tol(report.min_dihedral_deg, real[_i].min_deg, 0.06);
-    ck_assert_double_eq_tol(report.max_dihedral_deg, real[_i].max_deg, 0.06);
-    ck_assert_double_eq_tol(report.lattice_volume / real[_i].volume, 1, 1e-3);
-    ck_assert_double_eq_tol(report.farthest_m / cell, real[_i].farthest_cells, 1e-3);
+    ck_assert_uint_eq(report.lattices.thickened_points, real[_i].thickened);
+    ck_assert_double_eq_tol(report.lattices.min_dihedral_deg, real[_i].min_deg, 0.06);
+    ck_assert_double_eq_tol(report.lattices.max_dihedral_deg, real[_i].max_deg, 0.06);
+    ck_assert_double_eq_tol(report.lattices.volume / real[_i].volume, 1, 1e-3);
+    ck_assert_double_eq_tol(report.lattices.farthest_m / cell, real[_i].farthest_cells, 1e-3);
     ck_assert_int_eq(was_noted(SBF_CODE_LATTICE_THIN), real[_i].thin);
     ck_assert_int_eq(was_noted(SBF_CODE_EMBEDDING_FAR), real[_i].farthest_cells > 1);
     ck_assert_double_lt(misplaced(level, &level->embeddings.at[1], &mesh.positions), 1e-5 * 20 * cell);
@@ -369,7 +369,7 @@ static bool stop_at(void *user, const char *pass, double done) {
   return --*left >= 0;
 }
 
-START_TEST(cancelled_or_without_memory_it_leaves_nothing)
+START_TEST(cancelling_and_failed_allocations_free_everything)
 {
   add_cube(1, true);
   sbf_build_options options = {
@@ -400,14 +400,14 @@ int main(void) {
   TCase *c = tcase_create("lattice_level");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_cube_of_tetrahedra);
-  tcase_add_test(c, a_section_is_held_in_its_inner_half);
-  tcase_add_test(c, pins_on_the_surface_are_taken_over);
+  tcase_add_test(c, a_section_is_pinned_in_its_inner_half);
+  tcase_add_test(c, pins_on_the_surface_are_transferred);
   tcase_add_test(c, a_stray_vertex);
   tcase_add_test(c, a_lattice_that_misses_a_tip_is_refined);
   tcase_add_test(c, sheets_become_cloth);
   tcase_add_test(c, faults_are_reported);
   tcase_add_loop_test(c, real_surfaces, 0, (int)(sizeof real / sizeof *real));
-  tcase_add_test(c, cancelled_or_without_memory_it_leaves_nothing);
+  tcase_add_test(c, cancelling_and_failed_allocations_free_everything);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -1,4 +1,4 @@
-/* What holds a body, at the points of any of its levels: the author's list, and all that is inside a hull. */
+/* Pins of a body at the points of any of its levels: authored lists, and all points inside a hull. */
 #include "build/lattice/lattice_pins.h"
 
 #include <math.h>
@@ -97,7 +97,7 @@ static const sbf_build_interior interiors[] = {SBF_BUILD_INTERIOR_NONE, SBF_BUIL
 enum { INTERIOR_COUNT = sizeof interiors / sizeof *interiors };
 
 /* The hull takes every point inside it, those within the body too; the list the same ones of the surface. */
-START_TEST(both_ways_hold_the_same_points)
+START_TEST(both_methods_pin_the_same_points)
 {
   static uint8_t by_hull[20000], by_list[20000];
   attach_by_hull();
@@ -126,8 +126,8 @@ START_TEST(both_ways_hold_the_same_points)
 }
 END_TEST
 
-/* What an author pinned stays his, whatever hull it is in. */
-START_TEST(pins_go_before_hulls)
+/* Authored pins are kept in any hull. */
+START_TEST(pins_have_precedence_over_hulls)
 {
   static const uint32_t points[] = {0, 1, 2, 3};
   sbf_pin_set pins;
@@ -156,8 +156,8 @@ static Suite *suite(void) {
   Suite *s = suite_create("lattice_pins");
   TCase *c = tcase_create("lattice_pins");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_loop_test(c, both_ways_hold_the_same_points, 0, INTERIOR_COUNT);
-  tcase_add_loop_test(c, pins_go_before_hulls, 0, INTERIOR_COUNT);
+  tcase_add_loop_test(c, both_methods_pin_the_same_points, 0, INTERIOR_COUNT);
+  tcase_add_loop_test(c, pins_have_precedence_over_hulls, 0, INTERIOR_COUNT);
   suite_add_tcase(s, c);
   return s;
 }

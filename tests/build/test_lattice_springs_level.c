@@ -43,7 +43,7 @@ static void make_level(void) {
       sbfi_lattice_springs_level_make(&level, body, SBF_NONE, asset, &inert, (sbfi_progress){0}, &arena));
 }
 
-START_TEST(springs_hold_the_energy_of_the_volume)
+START_TEST(springs_store_the_energy_of_the_volume)
 {
   make_level();
   ck_assert_int_eq(level.model, SBF_ELASTIC_MODEL_SPRINGS);
@@ -62,7 +62,7 @@ START_TEST(springs_hold_the_energy_of_the_volume)
 }
 END_TEST
 
-START_TEST(points_weigh_what_they_do_in_the_lattice)
+START_TEST(point_masses_equal_those_of_the_lattice)
 {
   make_level();
   double sum = 0;
@@ -75,8 +75,8 @@ START_TEST(points_weigh_what_they_do_in_the_lattice)
 }
 END_TEST
 
-/* A modulus and a damping that rise along the bar, and an end that is held. */
-START_TEST(maps_and_pins_count)
+/* A modulus and a damping that rise along the bar, and a pinned end. */
+START_TEST(maps_and_pins_are_applied)
 {
   uint32_t count = body->surface.positions.count, pinned_count = 0, soft = 0, stiff = 0;
   uint32_t *pinned = sbf_asset_allocate(asset, count, sizeof *pinned);
@@ -123,9 +123,9 @@ static Suite *suite(void) {
   Suite *s = suite_create("lattice_springs_level");
   TCase *c = tcase_create("lattice_springs_level");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, springs_hold_the_energy_of_the_volume);
-  tcase_add_test(c, points_weigh_what_they_do_in_the_lattice);
-  tcase_add_test(c, maps_and_pins_count);
+  tcase_add_test(c, springs_store_the_energy_of_the_volume);
+  tcase_add_test(c, point_masses_equal_those_of_the_lattice);
+  tcase_add_test(c, maps_and_pins_are_applied);
   suite_add_tcase(s, c);
   return s;
 }

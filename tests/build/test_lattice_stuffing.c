@@ -96,7 +96,7 @@ static void check_volume(const sbfi_tetrahedra *made, double max) {
   ck_assert_double_le(quality.max_dihedral_deg, 165);
 }
 
-START_TEST(whatever_the_surface)
+START_TEST(any_surface_gives_a_valid_lattice)
 {
   sbfi_lattice_grid grid;
   size_t count = 0;
@@ -117,7 +117,7 @@ START_TEST(whatever_the_surface)
 }
 END_TEST
 
-START_TEST(all_inside_is_the_grid_itself)
+START_TEST(an_all_inside_lattice_is_the_grid)
 {
   sbfi_lattice_grid grid;
   sbfi_arena arena;
@@ -139,7 +139,7 @@ START_TEST(all_inside_is_the_grid_itself)
 }
 END_TEST
 
-START_TEST(edges_lead_where_they_say)
+START_TEST(edges_end_at_the_stated_nodes)
 {
   sbfi_lattice_grid grid;
   ck_assert(sbfi_lattice_grid_fit(&grid, (sbfi_d3){-1, 0, 2}, (sbfi_d3){3, 2, 5}, 0.5));
@@ -164,9 +164,9 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("lattice_stuffing");
   TCase *c = tcase_create("lattice_stuffing");
-  tcase_add_test(c, whatever_the_surface);
-  tcase_add_test(c, all_inside_is_the_grid_itself);
-  tcase_add_test(c, edges_lead_where_they_say);
+  tcase_add_test(c, any_surface_gives_a_valid_lattice);
+  tcase_add_test(c, an_all_inside_lattice_is_the_grid);
+  tcase_add_test(c, edges_end_at_the_stated_nodes);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

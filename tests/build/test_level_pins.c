@@ -40,7 +40,7 @@ static sbf_pin_set some_pins(void) {
   return pins;
 }
 
-START_TEST(the_bodys_pins_are_taken_over)
+START_TEST(pins_of_the_body_are_transferred)
 {
   sbf_pin_set pins = some_pins(), own;
   sbf_pin_set_init(&own);
@@ -60,7 +60,7 @@ START_TEST(the_bodys_pins_are_taken_over)
 }
 END_TEST
 
-START_TEST(points_go_by_the_levels_order)
+START_TEST(points_follow_the_order_of_the_level)
 {
   sbf_pin_set pins = some_pins();
   body->pins = (sbf_pin_set_list){&pins, 1};
@@ -123,8 +123,8 @@ static Suite *suite(void) {
   Suite *s = suite_create("level_pins");
   TCase *c = tcase_create("level_pins");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, the_bodys_pins_are_taken_over);
-  tcase_add_test(c, points_go_by_the_levels_order);
+  tcase_add_test(c, pins_of_the_body_are_transferred);
+  tcase_add_test(c, points_follow_the_order_of_the_level);
   tcase_add_test(c, attachments);
   suite_add_tcase(s, c);
   return s;

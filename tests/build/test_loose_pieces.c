@@ -25,7 +25,7 @@ static void check(const char *kept, double expected_kg, double loose_kg) {
   ck_assert_double_eq_tol(loose_kg, expected_kg, 1e-9);
 }
 
-START_TEST(of_what_nothing_holds_the_heaviest_stays)
+START_TEST(the_heaviest_unpinned_piece_is_kept)
 {
   double loose_kg;
   sbf_spring_network n = network();
@@ -34,7 +34,7 @@ START_TEST(of_what_nothing_holds_the_heaviest_stays)
 }
 END_TEST
 
-START_TEST(what_hangs_on_a_held_point_stays)
+START_TEST(pieces_on_a_pinned_point_are_kept)
 {
   double loose_kg;
   sbf_spring_network n = network();
@@ -44,7 +44,7 @@ START_TEST(what_hangs_on_a_held_point_stays)
 }
 END_TEST
 
-START_TEST(a_goal_holds_as_well)
+START_TEST(a_goal_counts_as_a_pin)
 {
   double loose_kg;
   float anchors[6] = {0, 0, 0, 0, 10, 0};
@@ -66,7 +66,7 @@ START_TEST(tetrahedra_join_too)
 }
 END_TEST
 
-/* A square of springs with its diagonal, and a pair that nothing holds. */
+/* A square of springs with its diagonal, and an unpinned pair. */
 static bool turns(const char *pinned) {
   static const sbf_uint2 sides[] = {{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}, {{0, 2}}, {{4, 5}}};
   static const sbf_vec3 at[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 0, 0}, {9, 1, 0}};
@@ -78,7 +78,7 @@ static bool turns(const char *pinned) {
   return turn;
 }
 
-START_TEST(what_is_held_at_a_line_turns)
+START_TEST(pieces_pinned_on_a_line_can_rotate)
 {
   ck_assert(!turns("000000"));
   ck_assert(turns("100000"));
@@ -111,11 +111,11 @@ int main(void) {
   Suite *s = suite_create("loose_pieces");
   TCase *c = tcase_create("loose_pieces");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, of_what_nothing_holds_the_heaviest_stays);
-  tcase_add_test(c, what_hangs_on_a_held_point_stays);
-  tcase_add_test(c, a_goal_holds_as_well);
+  tcase_add_test(c, the_heaviest_unpinned_piece_is_kept);
+  tcase_add_test(c, pieces_on_a_pinned_point_are_kept);
+  tcase_add_test(c, a_goal_counts_as_a_pin);
   tcase_add_test(c, tetrahedra_join_too);
-  tcase_add_test(c, what_is_held_at_a_line_turns);
+  tcase_add_test(c, pieces_pinned_on_a_line_can_rotate);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(s, c);
   return harness_run(s);

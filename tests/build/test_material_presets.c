@@ -29,7 +29,7 @@ START_TEST(every_preset_is_found_and_sound)
 }
 END_TEST
 
-START_TEST(a_preset_sets_what_it_knows)
+START_TEST(a_preset_sets_its_own_values_only)
 {
   sbf_attributes attributes;
   sbf_attributes_init(&attributes);
@@ -54,7 +54,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("material_presets");
   TCase *c = tcase_create("material_presets");
   tcase_add_test(c, every_preset_is_found_and_sound);
-  tcase_add_test(c, a_preset_sets_what_it_knows);
+  tcase_add_test(c, a_preset_sets_its_own_values_only);
   suite_add_tcase(s, c);
   return s;
 }

@@ -65,7 +65,7 @@ START_TEST(tetrahedra_are_damped_as_painted)
 }
 END_TEST
 
-START_TEST(tetrahedra_take_what_is_painted_beside_them)
+START_TEST(tetrahedra_use_weights_painted_nearby)
 {
   sbf_asset *built = build(SBF_BUILD_INTERIOR_TETRAHEDRA, 0.2);
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
@@ -90,7 +90,7 @@ START_TEST(tetrahedra_take_what_is_painted_beside_them)
 }
 END_TEST
 
-START_TEST(an_interior_point_counts_where_it_is_nearest)
+START_TEST(the_nearest_interior_point_counts)
 {
   static const sbf_vec3 middle = {0, 0, 0};
   sbfi_arena scratch;
@@ -138,8 +138,8 @@ static Suite *suite(void) {
   TCase *c = tcase_create("point_factors");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, tetrahedra_are_damped_as_painted);
-  tcase_add_test(c, tetrahedra_take_what_is_painted_beside_them);
-  tcase_add_test(c, an_interior_point_counts_where_it_is_nearest);
+  tcase_add_test(c, tetrahedra_use_weights_painted_nearby);
+  tcase_add_test(c, the_nearest_interior_point_counts);
   tcase_add_test(c, springs_state_painted_damping);
   suite_add_tcase(s, c);
   return s;

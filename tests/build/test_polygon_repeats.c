@@ -2,7 +2,7 @@
 
 #include "harness.h"
 
-START_TEST(test_whatever_order)
+START_TEST(test_any_order)
 {
   static const uint32_t sizes[] = {3, 4, 3, 4, 3, 4, 3, 5};
   static const uint32_t points[] = {
@@ -43,7 +43,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("polygon_repeats");
   TCase *c = tcase_create("polygon_repeats");
-  tcase_add_test(c, test_whatever_order);
+  tcase_add_test(c, test_any_order);
   tcase_add_test(c, test_large_polygons);
   suite_add_tcase(s, c);
   return s;

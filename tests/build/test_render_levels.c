@@ -238,7 +238,7 @@ START_TEST(errors_bound_the_levels)
 }
 END_TEST
 
-START_TEST(derived_ones_are_made_again_and_authored_ones_stay)
+START_TEST(derived_levels_are_rebuilt_and_authored_levels_kept)
 {
   sbf_render_mesh *mesh = add_sphere(8);
   char path[256];
@@ -327,7 +327,7 @@ static Suite *suite(void) {
   tcase_add_test(c, materials_and_borders_are_kept);
   tcase_add_test(c, joints_are_kept);
   tcase_add_test(c, errors_bound_the_levels);
-  tcase_add_test(c, derived_ones_are_made_again_and_authored_ones_stay);
+  tcase_add_test(c, derived_levels_are_rebuilt_and_authored_levels_kept);
   tcase_add_test(c, facets_do_not_hinder);
   tcase_add_test(c, small_and_empty_meshes);
   tcase_add_test(c, every_allocation_may_fail);

@@ -52,7 +52,7 @@ START_TEST(a_step_becomes_a_slope)
 { ck_assert_double_gt(smoothed(0, 0), 0.1); }
 END_TEST
 
-START_TEST(a_gentle_slope_stays)
+START_TEST(a_gentle_slope_is_unchanged)
 { ck_assert_double_eq(smoothed(0.6f, 0.6f), 0); }
 END_TEST
 
@@ -143,7 +143,7 @@ END_TEST
 
 /* Points beside a joint that are to keep their weights: on one side the slope goes to the other; on both
  * sides there is no room for it, and they give way. */
-START_TEST(fixed_points_keep_their_weights_as_long_as_others_can_give_way)
+START_TEST(fixed_points_keep_their_weights_while_others_can_change)
 {
   for (int both = 0; both < 2; both++) {
     sbfi_arena arena;
@@ -171,7 +171,7 @@ START_TEST(fixed_points_keep_their_weights_as_long_as_others_can_give_way)
 END_TEST
 
 /* Of the steps between four bones, only those at what soft bones hold become slopes. */
-START_TEST(what_no_soft_bone_holds_keeps_its_weights)
+START_TEST(vertices_without_soft_bones_keep_their_weights)
 {
   sbfi_arena arena;
   sbfi_skin_union skin;
@@ -199,7 +199,8 @@ START_TEST(what_no_soft_bone_holds_keeps_its_weights)
 }
 END_TEST
 
-/* 3,000 bones on a skin of 24,000 points: memory grows with what holds them, not with bones times points. */
+/* 3,000 bones on a skin of 24,000 points: memory grows with the number of influences, not with bones times
+ * points. */
 START_TEST(memory_does_not_grow_with_bones_times_points)
 {
   sbfi_arena arena;
@@ -221,7 +222,7 @@ START_TEST(memory_does_not_grow_with_bones_times_points)
 END_TEST
 
 /* As of a damaged file: no weights of float's digits are equal enough about bones so far off. */
-START_TEST(bones_far_from_the_skin_end_the_work_early)
+START_TEST(bones_far_from_the_skin_stop_the_iteration_early)
 {
   sbfi_arena arena;
   sbfi_skin_union skin;
@@ -251,14 +252,14 @@ static Suite *suite(void) {
   Suite *s = suite_create("section_blend");
   TCase *c = tcase_create("section_blend");
   tcase_add_test(c, a_step_becomes_a_slope);
-  tcase_add_test(c, a_gentle_slope_stays);
+  tcase_add_test(c, a_gentle_slope_is_unchanged);
   tcase_add_test(c, flips_are_detected_with_the_authored_weights);
   tcase_add_test(c, a_step_on_a_fine_skin_becomes_a_slope);
   tcase_add_test(c, the_order_of_polygons_changes_nothing);
-  tcase_add_test(c, fixed_points_keep_their_weights_as_long_as_others_can_give_way);
-  tcase_add_test(c, what_no_soft_bone_holds_keeps_its_weights);
+  tcase_add_test(c, fixed_points_keep_their_weights_while_others_can_change);
+  tcase_add_test(c, vertices_without_soft_bones_keep_their_weights);
   tcase_add_test(c, memory_does_not_grow_with_bones_times_points);
-  tcase_add_test(c, bones_far_from_the_skin_end_the_work_early);
+  tcase_add_test(c, bones_far_from_the_skin_stop_the_iteration_early);
   suite_add_tcase(s, c);
   return s;
 }

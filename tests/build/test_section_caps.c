@@ -43,7 +43,7 @@ START_TEST(a_tube_is_closed_at_both_ends)
 }
 END_TEST
 
-START_TEST(what_is_closed_stays)
+START_TEST(closed_meshes_are_unchanged)
 {
   sbf_asset *asset = sbf_asset_create(NULL);
   sbf_polygon_mesh mesh = shape_cube(asset, 2, 1, (sbf_vec3){0, 0, 0});
@@ -64,7 +64,7 @@ START_TEST(what_is_closed_stays)
 }
 END_TEST
 
-START_TEST(holes_that_touch_in_a_point_are_two)
+START_TEST(holes_with_a_common_point_are_two)
 {
   /* Two quads out of one face of a cube, diagonal from each other. */
   sbf_asset *asset = sbf_asset_create(NULL);
@@ -129,8 +129,8 @@ static Suite *suite(void) {
   TCase *c = tcase_create("section_caps");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_tube_is_closed_at_both_ends);
-  tcase_add_test(c, what_is_closed_stays);
-  tcase_add_test(c, holes_that_touch_in_a_point_are_two);
+  tcase_add_test(c, closed_meshes_are_unchanged);
+  tcase_add_test(c, holes_with_a_common_point_are_two);
   tcase_add_test(c, three_sheets_on_an_edge);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(s, c);

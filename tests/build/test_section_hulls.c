@@ -59,7 +59,7 @@ static const sbf_rigid_body *rigid_body_of(bool with_level) {
   return &asset->rigid_bodies.at[0];
 }
 
-START_TEST(a_section_weighs_what_its_hull_would)
+START_TEST(a_section_has_the_mass_of_its_hull)
 {
   const sbf_rigid_body *body = rigid_body_of(true);
   ck_assert_float_eq_tol(body->mass, 500 * 3.5f, 1e-2f);
@@ -67,7 +67,7 @@ START_TEST(a_section_weighs_what_its_hull_would)
 }
 END_TEST
 
-START_TEST(a_part_without_levels_weighs_what_it_holds)
+START_TEST(a_part_without_levels_has_the_mass_of_its_volume)
 {
   sbf_vec3 of_hull = rigid_body_of(true)->inertia;
   asset->rigid_bodies = (sbf_rigid_body_list){NULL, 0};
@@ -82,8 +82,8 @@ int main(void) {
   Suite *suite = suite_create("section_hulls");
   TCase *tests = tcase_create("all");
   tcase_add_checked_fixture(tests, setup, teardown);
-  tcase_add_test(tests, a_section_weighs_what_its_hull_would);
-  tcase_add_test(tests, a_part_without_levels_weighs_what_it_holds);
+  tcase_add_test(tests, a_section_has_the_mass_of_its_hull);
+  tcase_add_test(tests, a_part_without_levels_has_the_mass_of_its_volume);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

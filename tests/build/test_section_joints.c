@@ -30,7 +30,7 @@ START_TEST(a_joint_at_each_head)
     ck_assert_int_eq(b->bone, (int32_t)j + 1);
     ck_assert_float_eq_tol(a->center.y + joint->frame_a.position.y, (float)j + 1, 1e-5f);
     ck_assert_float_eq_tol(b->center.y + joint->frame_b.position.y, (float)j + 1, 1e-5f);
-    /* Its +X is the bone's +Y, which is that of the asset. */
+    /* Its +X is the bone's +Y, which is +Y of the asset. */
     sbf_quat q = joint->frame_b.rotation;
     ck_assert_float_eq_tol(2 * (q.x * q.y + q.w * q.z), 1, 1e-5f);
   }
@@ -42,7 +42,7 @@ START_TEST(a_joint_at_each_head)
 }
 END_TEST
 
-START_TEST(joints_of_the_source_stay)
+START_TEST(joints_of_the_source_are_kept)
 {
   /* Bone 2 has a body and a joint already. */
   sbf_asset *asset = skinned_limb_make(&limb);
@@ -76,7 +76,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("section_joints");
   TCase *c = tcase_create("section_joints");
   tcase_add_test(c, a_joint_at_each_head);
-  tcase_add_test(c, joints_of_the_source_stay);
+  tcase_add_test(c, joints_of_the_source_are_kept);
   suite_add_tcase(s, c);
   return s;
 }

@@ -44,7 +44,7 @@ START_TEST(borders_follow_rings)
 }
 END_TEST
 
-START_TEST(a_speck_goes_to_its_surroundings)
+START_TEST(a_speck_joins_its_surroundings)
 {
   const skinned_limb of = {.bones = 2, .sides = 12, .rings_a_bone = 8, .radius = 0.2f};
   label(&of);
@@ -64,7 +64,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("section_labels");
   tcase_add_checked_fixture(c, NULL, teardown);
   tcase_add_test(c, borders_follow_rings);
-  tcase_add_test(c, a_speck_goes_to_its_surroundings);
+  tcase_add_test(c, a_speck_joins_its_surroundings);
   suite_add_tcase(s, c);
   return s;
 }

@@ -38,7 +38,7 @@ static const sbf_pin_set *set_named(const sbf_level *level, const char *name) {
   return NULL;
 }
 
-START_TEST(the_bone_holds_all_along)
+START_TEST(points_along_the_whole_bone_are_pinned)
 {
   const sbf_level *level = level_of(4);
   const sbf_pin_set *core = set_named(level, "interior");
@@ -78,7 +78,7 @@ START_TEST(free_points_have_goals_springs_and_mass)
 }
 END_TEST
 
-START_TEST(a_sheet_is_held_by_its_centre)
+START_TEST(a_sheet_is_pinned_at_its_centre)
 {
   asset = skinned_limb_make(&(skinned_limb){.bones = 2, .sides = 3, .rings_a_bone = 1, .radius = 1});
   sbf_polygon_mesh sheet = shape_sheet(asset, 4, 4);
@@ -104,9 +104,9 @@ static Suite *suite(void) {
   Suite *s = suite_create("section_level");
   TCase *c = tcase_create("section_level");
   tcase_add_checked_fixture(c, NULL, teardown);
-  tcase_add_test(c, the_bone_holds_all_along);
+  tcase_add_test(c, points_along_the_whole_bone_are_pinned);
   tcase_add_test(c, free_points_have_goals_springs_and_mass);
-  tcase_add_test(c, a_sheet_is_held_by_its_centre);
+  tcase_add_test(c, a_sheet_is_pinned_at_its_centre);
   suite_add_tcase(s, c);
   return s;
 }

@@ -3,7 +3,7 @@
 #include "harness.h"
 #include "skinned_limb.h"
 
-/* A tube of two bones that stands on the first one's lower end, half of which the second one holds too. */
+/* A tube of two bones that stands on the lower end of the first; the second moves half of that end too. */
 static sbf_asset *standing(bool on_a_leg) {
   const skinned_limb of = {.bones = 2, .sides = 8, .rings_a_bone = 10, .radius = 0.2f, .slope = 3.8f};
   sbf_asset *asset = skinned_limb_make(&of);
@@ -64,7 +64,7 @@ START_TEST(a_sole_is_its_foots_alone)
 }
 END_TEST
 
-START_TEST(what_stands_on_no_leg_is_left_alone)
+START_TEST(sections_without_legs_are_unchanged)
 {
   uint32_t marked;
   ck_assert_float_lt(min_fraction(false, 0.1f, &marked), 0.99f);
@@ -76,7 +76,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("section_sole");
   TCase *c = tcase_create("section_sole");
   tcase_add_test(c, a_sole_is_its_foots_alone);
-  tcase_add_test(c, what_stands_on_no_leg_is_left_alone);
+  tcase_add_test(c, sections_without_legs_are_unchanged);
   suite_add_tcase(s, c);
   return s;
 }

@@ -95,7 +95,7 @@ START_TEST(one_skin_over_all)
 }
 END_TEST
 
-START_TEST(a_build_of_what_was_built_is_the_same)
+START_TEST(a_second_build_changes_nothing)
 {
   sbf_asset *asset = skinned_limb_make(&smooth), *first = build(asset, (sbf_build_options){0});
   sbf_asset *again = build(asset, (sbf_build_options){0}), *rebuilt = build(first, (sbf_build_options){0});
@@ -109,7 +109,7 @@ START_TEST(a_build_of_what_was_built_is_the_same)
 }
 END_TEST
 
-START_TEST(none_where_none_are_wanted)
+START_TEST(no_sections_without_the_request)
 {
   sbf_asset *asset = skinned_limb_make(&smooth);
   sbf_asset *built = build(asset, (sbf_build_options){.sections = SBF_BUILD_SECTIONS_NONE});
@@ -133,7 +133,7 @@ START_TEST(none_where_none_are_wanted)
 END_TEST
 
 /* A hat is no section: the limb is cut as it is without it, and nothing of its skin hangs on the hat. */
-START_TEST(what_is_worn_leaves_the_skin_whole)
+START_TEST(clothes_do_not_cut_the_skin)
 {
   sbf_asset *asset = skinned_limb_make(&smooth);
   sbf_asset *bare = build(asset, (sbf_build_options){0});
@@ -251,9 +251,9 @@ static Suite *suite(void) {
   TCase *c = tcase_create("sections");
   tcase_add_test(c, a_limb_becomes_sections);
   tcase_add_loop_test(c, one_skin_over_all, 0, 3);
-  tcase_add_test(c, a_build_of_what_was_built_is_the_same);
-  tcase_add_test(c, none_where_none_are_wanted);
-  tcase_add_test(c, what_is_worn_leaves_the_skin_whole);
+  tcase_add_test(c, a_second_build_changes_nothing);
+  tcase_add_test(c, no_sections_without_the_request);
+  tcase_add_test(c, clothes_do_not_cut_the_skin);
   tcase_add_test(c, a_sliver_joins_and_still_moves);
   tcase_add_test(c, recipes_state_elements);
   tcase_add_test(c, memory_may_run_out);

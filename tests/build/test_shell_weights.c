@@ -124,7 +124,7 @@ START_TEST(shells_across_the_middle_are_of_neither_side)
 }
 END_TEST
 
-/* The ball of a joint moves with the bone that begins in its middle, whatever leads. */
+/* The ball of a joint moves with the bone that begins in its middle, whichever bone is the parent. */
 START_TEST(hinges_follow_the_bone_that_begins_there)
 {
   const sbfi_d3 arm[] = {{0, 0, 0}, {3, 0, 0}};

@@ -47,7 +47,7 @@ START_TEST(a_seam_is_sewn)
 }
 END_TEST
 
-START_TEST(lips_that_touch_stay_two)
+START_TEST(touching_lips_stay_separate)
 {
   /* Two triangles back to back, each on a bone of its own, that share all three places. */
   asset = skinned_limb_make(&tube);
@@ -103,7 +103,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("skin_union");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_seam_is_sewn);
-  tcase_add_test(c, lips_that_touch_stay_two);
+  tcase_add_test(c, touching_lips_stay_separate);
   tcase_add_test(c, meshes_join_and_pictures_of_bodies_do_not);
   suite_add_tcase(s, c);
   return s;

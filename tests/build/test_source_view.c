@@ -22,7 +22,7 @@ static uint32_t count_derived(const sbfi_element_path *path) {
   return count;
 }
 
-START_TEST(nothing_derived_is_left)
+START_TEST(a_source_view_has_no_derived_parts)
 {
   uint32_t before = 0;
   for (uint64_t seed = 1; seed < 6; seed++) {
@@ -44,7 +44,7 @@ START_TEST(nothing_derived_is_left)
 }
 END_TEST
 
-START_TEST(a_source_is_seen_whole)
+START_TEST(a_source_view_has_all_source_parts)
 {
   sbf_asset *asset = sbf_asset_create(NULL);
   sbf_rigid_body rigid[2];
@@ -103,8 +103,8 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("source_view");
   TCase *c = tcase_create("source_view");
-  tcase_add_test(c, nothing_derived_is_left);
-  tcase_add_test(c, a_source_is_seen_whole);
+  tcase_add_test(c, a_source_view_has_no_derived_parts);
+  tcase_add_test(c, a_source_view_has_all_source_parts);
   tcase_add_test(c, references_follow);
   suite_add_tcase(s, c);
   return s;

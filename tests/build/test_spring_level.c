@@ -195,7 +195,7 @@ START_TEST(sums_of_stiffness)
 }
 END_TEST
 
-START_TEST(held_ends_are_inert)
+START_TEST(springs_between_pinned_points_are_inert)
 {
   sbf_soft_body *body = cube_of(1, 0.2f, true);
   const uint32_t points[] = {0, 1};
@@ -219,7 +219,7 @@ START_TEST(held_ends_are_inert)
 }
 END_TEST
 
-START_TEST(points_in_one_place_get_no_spring)
+START_TEST(coincident_points_get_no_spring)
 {
   sbf_soft_body *body = cube_of(1, 0.2f, true);
   sbf_vec3 folded[8];
@@ -266,8 +266,8 @@ static Suite *suite(void) {
   tcase_add_test(c, modulus_map);
   tcase_add_test(c, frequencies_bracket);
   tcase_add_test(c, sums_of_stiffness);
-  tcase_add_test(c, held_ends_are_inert);
-  tcase_add_test(c, points_in_one_place_get_no_spring);
+  tcase_add_test(c, springs_between_pinned_points_are_inert);
+  tcase_add_test(c, coincident_points_get_no_spring);
   tcase_add_test(c, authored_interior_points_are_joined);
   suite_add_tcase(s, c);
   return s;

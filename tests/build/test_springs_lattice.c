@@ -36,7 +36,7 @@ static sbf_polygon_mesh make_c(void) {
   return mesh;
 }
 
-START_TEST(no_spring_leaves_a_concave_body)
+START_TEST(no_spring_crosses_the_outside_of_a_concave_body)
 {
   sbf_polygon_mesh mesh = make_c();
   sbfi_lattice_interior in;
@@ -60,7 +60,7 @@ START_TEST(no_spring_leaves_a_concave_body)
 }
 END_TEST
 
-START_TEST(a_cell_is_found_where_none_is_named)
+START_TEST(a_default_cell_size_is_found)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 1, 1, (sbf_vec3){0, 0, 0}), sheet = shape_sheet(asset, 3, 3);
   sbfi_lattice_interior in;
@@ -115,8 +115,8 @@ static double sag_of(sbfi_spring_interior interior, uint32_t n, double cell, uin
   return sum / free_points;
 }
 
-/* Held in its inner half, as the centroid's cube is held at its core, it falls by about as much. */
-START_TEST(a_lattice_bears_its_weight)
+/* Pinned in its inner half, it sags by about as much as the centroid's cube pinned at its core. */
+START_TEST(a_lattice_supports_its_weight)
 {
   uint32_t few, many;
   double coarse = sag_of(SBFI_INTERIOR_LATTICE, 6, 0.04, &few);
@@ -162,9 +162,9 @@ int main(void) {
   Suite *s = suite_create("springs_lattice");
   TCase *c = tcase_create("springs_lattice");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, no_spring_leaves_a_concave_body);
-  tcase_add_test(c, a_cell_is_found_where_none_is_named);
-  tcase_add_test(c, a_lattice_bears_its_weight);
+  tcase_add_test(c, no_spring_crosses_the_outside_of_a_concave_body);
+  tcase_add_test(c, a_default_cell_size_is_found);
+  tcase_add_test(c, a_lattice_supports_its_weight);
   tcase_add_test(c, brute_joins_all);
   tcase_add_test(c, every_allocation_may_fail);
   suite_add_tcase(s, c);

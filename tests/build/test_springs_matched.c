@@ -48,7 +48,7 @@ START_TEST(a_body_centred_grid_is_isotropic)
 }
 END_TEST
 
-START_TEST(energy_is_kept_whatever_the_directions)
+START_TEST(energy_is_conserved_in_any_direction)
 {
   const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0.3f, 0.1f, 1}, {0, 0, 0}, {0.01f, 0, 0}};
   const sbf_uint2 ends[] = {{{0, 1}}, {{0, 2}}, {{3, 0}}, {{0, 4}}, {{0, 5}}};
@@ -159,8 +159,8 @@ static double sag(const bar *b, int axis) {
   return sum / ends;
 }
 
-/* What a bar does depends on rho g L / E and nothing else: whatever its size, stuff, and kind of level. */
-START_TEST(sag_goes_with_weight_over_modulus)
+/* The motion of a bar depends on rho g L / E only, for any size, material and kind of level. */
+START_TEST(sag_scales_with_weight_over_modulus)
 {
   static const sbf_build_interior interiors[] = {
       SBF_BUILD_INTERIOR_CENTROID, SBF_BUILD_INTERIOR_LATTICE, SBF_BUILD_INTERIOR_TETRAHEDRA};
@@ -212,9 +212,9 @@ int main(void) {
   TCase *c = tcase_create("springs_matched");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_body_centred_grid_is_isotropic);
-  tcase_add_test(c, energy_is_kept_whatever_the_directions);
+  tcase_add_test(c, energy_is_conserved_in_any_direction);
   tcase_add_test(c, every_allocation_may_fail);
-  tcase_add_test(c, sag_goes_with_weight_over_modulus);
+  tcase_add_test(c, sag_scales_with_weight_over_modulus);
   tcase_add_test(c, refining_changes_next_to_nothing);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -3,7 +3,7 @@
 #include "harness.h"
 
 /* Two tetrahedra that share a face have nine sides. */
-START_TEST(each_side_comes_once)
+START_TEST(each_side_is_listed_once)
 {
   static const sbf_uint4 two[] = {{{0, 1, 2, 3}}, {{4, 3, 2, 1}}};
   static const uint32_t wanted[9][2] = {
@@ -19,7 +19,7 @@ START_TEST(each_side_comes_once)
 }
 END_TEST
 
-START_TEST(nothing_has_no_sides)
+START_TEST(an_empty_mesh_has_no_sides)
 {
   sbfi_arena arena;
   sbfi_spring_list springs;
@@ -33,8 +33,8 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("springs_sides");
   TCase *c = tcase_create("springs_sides");
-  tcase_add_test(c, each_side_comes_once);
-  tcase_add_test(c, nothing_has_no_sides);
+  tcase_add_test(c, each_side_is_listed_once);
+  tcase_add_test(c, an_empty_mesh_has_no_sides);
   suite_add_tcase(s, c);
   return s;
 }

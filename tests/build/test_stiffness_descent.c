@@ -46,8 +46,8 @@ static float *stated(void) {
 }
 
 /* Every spring was made otherwise, by up to three: the displacements say by how much, but for what many
- * stiffnesses have alike. */
-START_TEST(springs_are_found_again_by_what_they_do)
+ * stiffnesses share. */
+START_TEST(springs_are_recovered_from_their_response)
 {
   double left, before;
   for (uint32_t i = 0; i < statics.network.spring_count; i++)
@@ -67,7 +67,7 @@ END_TEST
 
 /* What is wanted is a tenth of a tenth: no spring becomes stiffer than sixteen times, no point is held by
  * more than four times what the most tightly held one was. */
-START_TEST(bounds_hold)
+START_TEST(bounds_are_respected)
 {
   double left, max = 0;
   const float *from = stated();
@@ -100,7 +100,7 @@ static bool stop(void *user, double done) {
   return done < 0.5;
 }
 
-START_TEST(it_can_be_ended)
+START_TEST(the_descent_can_be_cancelled)
 {
   double left, reached = 0;
   ck_assert(!sbfi_stiffness_descent(
@@ -110,7 +110,7 @@ START_TEST(it_can_be_ended)
 END_TEST
 
 /* The whole: sections of our lizard against their own tetrahedra, as every build does it. */
-START_TEST(a_lizards_sections_give_as_their_matter)
+START_TEST(sections_of_a_lizard_deform_as_their_material)
 {
   sbf_build_report report;
   sbf_diagnostic error;
@@ -118,7 +118,7 @@ START_TEST(a_lizards_sections_give_as_their_matter)
   shape_sections_of_obj(lizard, harness_source("examples/lizard/lizard.obj"));
   const sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_CENTROID};
   ck_assert(sbf_build(lizard, &options, &made, &report, &error) == SBF_OK);
-  ck_assert_uint_eq(report.calibrated_springs, lizard->soft_bodies.count);
+  ck_assert_uint_eq(report.spring_calibration.count, lizard->soft_bodies.count);
   uint32_t near = 0;
   for (uint32_t i = 0; i < made->soft_bodies.count; i++) {
     const sbf_level *level = &made->soft_bodies.at[i].levels.at[0];
@@ -141,10 +141,10 @@ int main(void) {
   Suite *s = suite_create("stiffness_descent");
   TCase *c = tcase_create("stiffness_descent");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, springs_are_found_again_by_what_they_do);
-  tcase_add_test(c, bounds_hold);
-  tcase_add_test(c, it_can_be_ended);
-  tcase_add_test(c, a_lizards_sections_give_as_their_matter);
+  tcase_add_test(c, springs_are_recovered_from_their_response);
+  tcase_add_test(c, bounds_are_respected);
+  tcase_add_test(c, the_descent_can_be_cancelled);
+  tcase_add_test(c, sections_of_a_lizard_deform_as_their_material);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

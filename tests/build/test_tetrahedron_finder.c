@@ -74,7 +74,7 @@ START_TEST(points_inside_are_found_as_by_looking_at_all)
 END_TEST
 
 /* Every place of the lattice lies within the cube, and comes near to each of its sides. */
-START_TEST(points_outside_know_how_far)
+START_TEST(points_outside_have_a_distance)
 {
   for (int i = 0; i < 60; i++) {
     double away = 0.001 * pow(1.3, i);
@@ -88,8 +88,8 @@ START_TEST(points_outside_know_how_far)
 }
 END_TEST
 
-/* Near and far, inside and outside: what is solved beforehand changes nothing. */
-START_TEST(few_searches_find_what_many_do)
+/* Near and far, inside and outside: precomputed values change no result. */
+START_TEST(few_searches_find_as_much_as_many)
 {
   sbfi_tetrahedron_finder few;
   ck_assert(sbfi_tetrahedron_finder_make(
@@ -140,8 +140,8 @@ int main(void) {
   TCase *c = tcase_create("tetrahedron_finder");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, points_inside_are_found_as_by_looking_at_all);
-  tcase_add_test(c, points_outside_know_how_far);
-  tcase_add_test(c, few_searches_find_what_many_do);
+  tcase_add_test(c, points_outside_have_a_distance);
+  tcase_add_test(c, few_searches_find_as_much_as_many);
   tcase_add_test(c, points_outside_have_the_smallest_weights);
   tcase_add_test(c, one_alone);
   suite_add_tcase(s, c);

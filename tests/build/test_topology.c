@@ -86,7 +86,7 @@ START_TEST(faults_are_counted)
 }
 END_TEST
 
-START_TEST(nothing_is_a_mesh_too)
+START_TEST(an_empty_mesh_is_valid)
 {
   sbf_polygon_mesh mesh;
   sbf_polygon_mesh_init(&mesh);
@@ -122,7 +122,7 @@ static Suite *suite(void) {
   tcase_add_test(c, cube_is_closed);
   tcase_add_test(c, edges_stand_in_the_order_of_the_walk);
   tcase_add_test(c, faults_are_counted);
-  tcase_add_test(c, nothing_is_a_mesh_too);
+  tcase_add_test(c, an_empty_mesh_is_valid);
   tcase_add_test(c, every_allocation_may_fail);
   suite_add_tcase(s, c);
   return s;

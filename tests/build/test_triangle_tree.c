@@ -55,7 +55,7 @@ START_TEST(nearest_as_by_trying_all)
 }
 END_TEST
 
-START_TEST(a_bound_is_kept)
+START_TEST(a_bound_is_respected)
 {
   sbf_polygon_mesh mesh = shape_cube(asset, 2, 2, (sbf_vec3){0, 0, 0});
   sbfi_triangle_tree tree;
@@ -100,7 +100,7 @@ START_TEST(rays_hit_the_first_shape)
 }
 END_TEST
 
-START_TEST(closest_places)
+START_TEST(closest_points)
 {
   const double a[3] = {0, 0, 0}, b[3] = {2, 0, 0}, c[3] = {0, 2, 0};
   double w[3];
@@ -137,9 +137,9 @@ static Suite *suite(void) {
   TCase *c = tcase_create("triangle_tree");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, nearest_as_by_trying_all);
-  tcase_add_test(c, a_bound_is_kept);
+  tcase_add_test(c, a_bound_is_respected);
   tcase_add_test(c, rays_hit_the_first_shape);
-  tcase_add_test(c, closest_places);
+  tcase_add_test(c, closest_points);
   tcase_add_test(c, empty_mesh);
   suite_add_tcase(s, c);
   return s;

@@ -57,13 +57,13 @@ static sbf_asset *build_bar(const sbf_vec3 *positions, uint32_t count, uint32_t 
 }
 
 /* Nothing is calibrated against what turns. */
-START_TEST(a_body_held_at_a_point_is_warned_of)
+START_TEST(a_body_pinned_at_one_point_causes_a_warning)
 {
   const sbf_vec3 position = {0, 0.2f, 0.2f};
   sbf_asset *built = build_bar(&position, 1, 300, 2);
   ck_assert_int_eq(noted, 1);
   ck_assert_ptr_nonnull(strstr(said, "\"bar\""));
-  ck_assert_uint_eq(report.calibrated, 0);
+  ck_assert_uint_eq(report.lattice_calibration.count, 0);
   for (uint32_t l = 0; l < built->soft_bodies.at[0].levels.count; l++) {
     const sbf_level *level = &built->soft_bodies.at[0].levels.at[l];
     ck_assert_float_eq(level->simulation.error, 0);
@@ -83,7 +83,7 @@ START_TEST(the_finest_is_kept_without_an_error)
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
   ck_assert_int_eq(noted, 1);
   ck_assert_ptr_nonnull(strstr(said, "not stated"));
-  ck_assert_uint_eq(report.calibrated, 0);
+  ck_assert_uint_eq(report.lattice_calibration.count, 0);
   ck_assert_float_eq(level->simulation.error, 0);
   ck_assert_float_gt(level->simulation.cost, 0);
   ck_assert_ptr_null(level->calibration);
@@ -92,7 +92,7 @@ START_TEST(the_finest_is_kept_without_an_error)
 }
 END_TEST
 
-START_TEST(a_coarser_one_is_left_out)
+START_TEST(a_coarser_level_is_left_out)
 {
   sbf_asset *built = build_bar(close_places, 3, 600, 3);
   const sbf_level_list *levels = &built->soft_bodies.at[0].levels;
@@ -121,7 +121,7 @@ START_TEST(the_finest_level_is_kept_with_a_warning)
 }
 END_TEST
 
-START_TEST(a_coarser_one_that_is_off_is_left_out)
+START_TEST(an_inaccurate_coarser_level_is_left_out)
 {
   sbf_asset *built = build_bar(corners, 4, 1600, 3);
   const sbf_level_list *levels = &built->soft_bodies.at[0].levels;
@@ -137,11 +137,11 @@ int main(void) {
   Suite *s = suite_create("unsettled_levels");
   TCase *c = tcase_create("unsettled_levels");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, a_body_held_at_a_point_is_warned_of);
+  tcase_add_test(c, a_body_pinned_at_one_point_causes_a_warning);
   tcase_add_test(c, the_finest_is_kept_without_an_error);
-  tcase_add_test(c, a_coarser_one_is_left_out);
+  tcase_add_test(c, a_coarser_level_is_left_out);
   tcase_add_test(c, the_finest_level_is_kept_with_a_warning);
-  tcase_add_test(c, a_coarser_one_that_is_off_is_left_out);
+  tcase_add_test(c, an_inaccurate_coarser_level_is_left_out);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -39,7 +39,7 @@ static sbf_render_mesh two_quads(void) {
   return mesh;
 }
 
-START_TEST(what_splits_a_point)
+START_TEST(attributes_that_split_a_point)
 {
   sbf_render_mesh mesh = two_quads();
   ck_assert_uint_eq(count(&mesh, all), 6);
@@ -47,7 +47,7 @@ START_TEST(what_splits_a_point)
   mesh.polygon_materials = (sbf_u32_list){slots, 2};
   ck_assert_uint_eq(count(&mesh, none), 8);
   mesh.polygon_materials.count = 0;
-  /* Coordinates that agree in value do not split, whatever their numbers. */
+  /* Coordinates of equal value do not split, at any index. */
   static const sbf_vec2 same[] = {{0.5f, 0.5f}, {0.5f, 0.5f}};
   static const uint32_t by_polygon[] = {0, 0, 0, 0, 1, 1, 1, 1};
   sbf_uv_set uv;
@@ -98,7 +98,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("wedges");
   TCase *c = tcase_create("wedges");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, what_splits_a_point);
+  tcase_add_test(c, attributes_that_split_a_point);
   tcase_add_test(c, bones_split_one_ring);
   tcase_add_test(c, triangles_are_fans);
   suite_add_tcase(s, c);

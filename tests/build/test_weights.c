@@ -68,7 +68,7 @@ static void check_arm(double slack) {
   }
 }
 
-START_TEST(bones_of_a_chain_share_a_tube)
+START_TEST(bones_of_a_chain_divide_a_tube)
 {
   make_arm(60, false);
   compute_tubes();
@@ -87,7 +87,7 @@ START_TEST(an_open_tube_is_as_good)
 END_TEST
 
 /* Every triangle with corners of its own, in one place: the same weights; drawn in from its sides: nearly. */
-START_TEST(triangles_may_be_apart)
+START_TEST(triangles_may_be_separate)
 {
   make_arm(60, false);
   compute_tubes();
@@ -214,7 +214,7 @@ END_TEST
 
 /* A button whose lowest point is in the place of one of the sleeve's: a shell of its own, and rigid. The
  * sleeve's halves share edges, not points: one shell. */
-START_TEST(shells_that_touch_stay_apart)
+START_TEST(touching_shells_stay_separate)
 {
   make_arm(60, false);
   uint32_t arm = tubes->point_count, above = 0;
@@ -235,8 +235,8 @@ START_TEST(shells_that_touch_stay_apart)
 }
 END_TEST
 
-/* An eye in a head: no bone runs through it, and the nearest bone is that of a thin ear. */
-START_TEST(eyes_follow_the_head_that_holds_them)
+/* An eye in a head: no bone runs through it, and the nearest bone belongs to a thin ear. */
+START_TEST(eyes_follow_the_head_around_them)
 {
   tubes_add_ball(tubes, (sbfi_d3){0, 0, 0}, 0.5, 24);
   uint32_t eye = tubes_add_ball(tubes, (sbfi_d3){0, 0.05, 0.49}, 0.04, 8);
@@ -252,7 +252,7 @@ END_TEST
 
 /* A ball of radius 1 with a thin arm, turned around x as one shell. Near the shoulder the arm's bone is
  * nearer than the ball's. */
-START_TEST(a_thick_part_keeps_its_shoulder)
+START_TEST(a_thick_limb_keeps_its_shoulder)
 {
   const sbfi_d3 path[] = {{-1, 0, 0}, {3, 0, 0}};
   tubes_add(tubes, path, 2, 1, 120, false);
@@ -274,7 +274,7 @@ END_TEST
 
 /* A thick drum that goes on as a thin rod behind the joint: its rim lies behind the joint too, nearer to the
  * rod's bone, but faces away from the rod. */
-START_TEST(a_rim_belongs_to_the_bone_that_it_faces_away_from)
+START_TEST(a_rim_follows_the_bone_behind_it)
 {
   const sbfi_d3 path[] = {{0, 0, 0}, {2.2, 0, 0}};
   tubes_add(tubes, path, 2, 0.1, 60, false);
@@ -293,7 +293,7 @@ START_TEST(a_rim_belongs_to_the_bone_that_it_faces_away_from)
 END_TEST
 
 /* A pad of its own before the joint of a limb, which is nearer than the trunk that carries it. */
-START_TEST(a_pad_before_a_joint_follows_the_carrier)
+START_TEST(a_pad_before_a_joint_follows_its_limb)
 {
   const sbfi_d3 trunk[] = {{0, 0, 0}, {0, 2, 0}}, arm[] = {{0.6, 1, 0}, {1.6, 1, 0}};
   const sbfi_d3 pad[] = {{0.4, 1, 0}, {0.58, 1, 0}};
@@ -309,8 +309,8 @@ START_TEST(a_pad_before_a_joint_follows_the_carrier)
 }
 END_TEST
 
-/* In one skin around both the limb holds what is nearest to its joint, also before it. */
-START_TEST(a_limb_holds_the_skin_around_its_joint)
+/* In one skin around both, vertices nearest to the limb's joint follow the limb, also in front of it. */
+START_TEST(skin_around_a_joint_follows_its_limb)
 {
   const sbfi_d3 path[] = {{0, 0, 0}, {0, 2, 0}, {1.6, 2, 0}};
   tubes_add(tubes, path, 3, 0.12, 40, false);
@@ -336,7 +336,7 @@ START_TEST(bones_deep_in_a_body_are_idle)
 END_TEST
 
 /* A leg that ends below and behind the ankle: the heel is the foot's, though both bones are as far. */
-START_TEST(a_foot_holds_its_heel)
+START_TEST(the_heel_follows_the_foot)
 {
   const sbfi_d3 leg[] = {{0, 2, 0}, {0, -0.3, 0}};
   tubes_add(tubes, leg, 2, 0.2, 60, false);
@@ -353,7 +353,7 @@ START_TEST(a_foot_holds_its_heel)
 }
 END_TEST
 
-START_TEST(frames_and_controls_hold_nothing)
+START_TEST(frames_and_controls_get_no_weights)
 {
   make_arm(30, false);
   for (uint32_t i = 0; i < tubes->bone_count; i++) tubes->bones[i].parent += 1;
@@ -361,7 +361,7 @@ START_TEST(frames_and_controls_hold_nothing)
   tubes->bone_count = 0;
   uint32_t frame = tubes_add_bone(tubes, "body", SBF_NONE, (sbfi_d3){0.5, 0, 0}, (sbfi_d3){0.5, 1, 0});
   tubes->bone_count = 4;
-  /* An aim before the arm, a handle in the place of its last joint, and one that says what it is. */
+  /* An aim in front of the arm, a handle at its last joint, and a handle with a telling name. */
   uint32_t aim =
       tubes_add_bone(tubes, "elbow.aim", (int32_t)frame, (sbfi_d3){1.5, 0, 2}, (sbfi_d3){1.5, 0, 3});
   uint32_t pull = tubes_add_bone(tubes, "grip", (int32_t)frame, (sbfi_d3){2, 0, 0}, (sbfi_d3){2, 1, 0});
@@ -378,7 +378,7 @@ START_TEST(frames_and_controls_hold_nothing)
 END_TEST
 
 /* The mark of an end holds nothing, and the bone before it runs to it. */
-START_TEST(ends_of_bones_hold_nothing)
+START_TEST(ends_of_bones_get_no_weights)
 {
   make_arm(60, false);
   uint32_t end = tubes_add_bone(tubes, "arm_end", 2, (sbfi_d3){2.9, 0, 0}, (sbfi_d3){2.9, 1, 0});
@@ -391,7 +391,7 @@ START_TEST(ends_of_bones_hold_nothing)
 END_TEST
 
 /* Handles that an animator pulls a hand by, in a tree of their own: one lies in the place of a joint. */
-START_TEST(trees_of_handles_hold_nothing)
+START_TEST(trees_of_handles_get_no_weights)
 {
   make_arm(60, false);
   uint32_t handle = tubes_add_bone(tubes, "pull", SBF_NONE, (sbfi_d3){2.2, 0.05, 0}, (sbfi_d3){2.2, 0.1, 0});
@@ -475,7 +475,7 @@ START_TEST(dense_surfaces_need_few_rays)
 }
 END_TEST
 
-START_TEST(the_unit_does_not_matter)
+START_TEST(the_unit_changes_nothing)
 {
   make_arm(30, false);
   compute_tubes();
@@ -552,28 +552,28 @@ static Suite *suite(void) {
   Suite *s = suite_create("weights");
   TCase *c = tcase_create("weights");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, bones_of_a_chain_share_a_tube);
+  tcase_add_test(c, bones_of_a_chain_divide_a_tube);
   tcase_add_test(c, an_open_tube_is_as_good);
-  tcase_add_test(c, triangles_may_be_apart);
+  tcase_add_test(c, triangles_may_be_separate);
   tcase_add_test(c, distance_runs_through_the_body);
   tcase_add_test(c, legs_close_together);
   tcase_add_test(c, thick_parts_reach_farther);
   tcase_add_test(c, small_shells_are_rigid);
-  tcase_add_test(c, shells_that_touch_stay_apart);
-  tcase_add_test(c, eyes_follow_the_head_that_holds_them);
-  tcase_add_test(c, frames_and_controls_hold_nothing);
-  tcase_add_test(c, a_thick_part_keeps_its_shoulder);
-  tcase_add_test(c, a_rim_belongs_to_the_bone_that_it_faces_away_from);
-  tcase_add_test(c, a_pad_before_a_joint_follows_the_carrier);
-  tcase_add_test(c, a_limb_holds_the_skin_around_its_joint);
+  tcase_add_test(c, touching_shells_stay_separate);
+  tcase_add_test(c, eyes_follow_the_head_around_them);
+  tcase_add_test(c, frames_and_controls_get_no_weights);
+  tcase_add_test(c, a_thick_limb_keeps_its_shoulder);
+  tcase_add_test(c, a_rim_follows_the_bone_behind_it);
+  tcase_add_test(c, a_pad_before_a_joint_follows_its_limb);
+  tcase_add_test(c, skin_around_a_joint_follows_its_limb);
   tcase_add_test(c, bones_deep_in_a_body_are_idle);
-  tcase_add_test(c, a_foot_holds_its_heel);
-  tcase_add_test(c, ends_of_bones_hold_nothing);
-  tcase_add_test(c, trees_of_handles_hold_nothing);
+  tcase_add_test(c, the_heel_follows_the_foot);
+  tcase_add_test(c, ends_of_bones_get_no_weights);
+  tcase_add_test(c, trees_of_handles_get_no_weights);
   tcase_add_test(c, fingers_at_the_wrist_do_not_end_the_hand);
   tcase_add_test(c, machines_are_rigid);
   tcase_add_test(c, dense_surfaces_need_few_rays);
-  tcase_add_test(c, the_unit_does_not_matter);
+  tcase_add_test(c, the_unit_changes_nothing);
   tcase_add_test(c, points_in_no_triangle_follow_the_nearest);
   tcase_add_test(c, refusals);
   tcase_add_test(c, memory_may_run_out);

@@ -196,8 +196,8 @@ START_TEST(a_tube_of_slivers)
 }
 END_TEST
 
-/* What is kept is less than 200 bytes a triangle; what is only needed to make it takes more. */
-START_TEST(memory_is_given_back)
+/* The tree takes less than 200 bytes a triangle; building it takes more. */
+START_TEST(memory_is_freed)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 60, 2, (sbf_vec3){0, 0, 0});
   wind(&cube);
@@ -234,7 +234,7 @@ int main(void) {
   tcase_add_test(c, soups);
   tcase_add_test(c, open_soups_of_long_triangles);
   tcase_add_test(c, a_tube_of_slivers);
-  tcase_add_test(c, memory_is_given_back);
+  tcase_add_test(c, memory_is_freed);
   tcase_add_test(c, every_allocation_may_fail);
   suite_add_tcase(s, c);
   return harness_run(s);

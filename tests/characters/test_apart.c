@@ -38,7 +38,7 @@ static sbr_world *world_of(const sbr_model *model, bool contacts, double separat
   return world;
 }
 
-START_TEST(what_touches_nothing_moves_as_alone)
+START_TEST(characters_without_contact_move_as_alone)
 {
   sbf_asset *asset = built_pup();
   sbr_model *model;
@@ -58,7 +58,7 @@ START_TEST(what_touches_nothing_moves_as_alone)
 END_TEST
 
 /* Against a test that could not fail: side by side they do touch, and move otherwise. */
-START_TEST(what_touches_moves_otherwise)
+START_TEST(characters_in_contact_move_differently)
 {
   sbf_asset *asset = built_pup();
   sbr_model *model;
@@ -82,8 +82,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("apart");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, what_touches_nothing_moves_as_alone);
-  tcase_add_test(tests, what_touches_moves_otherwise);
+  tcase_add_test(tests, characters_without_contact_move_as_alone);
+  tcase_add_test(tests, characters_in_contact_move_differently);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -13,7 +13,7 @@ START_TEST(balls_keep_shape_and_energy)
 END_TEST
 
 /* From 3 m jelly strikes at 4.5 times its speed of sound in a rod, at the end of a tick. */
-START_TEST(what_strikes_faster_than_sound_is_not_turned_inside_out)
+START_TEST(impacts_faster_than_sound_do_not_invert_bodies)
 {
   const dropped_ball ball = {"jelly", 0, 0.02f * (float)(_i + 1), 3};
   ck_assert(!dropped_ball_inverts(&ball));
@@ -24,7 +24,7 @@ int main(void) {
   Suite *suite = suite_create("dropped_ball");
   TCase *c = tcase_create("dropped_ball");
   tcase_add_loop_test(c, balls_keep_shape_and_energy, 0, HARNESS_FEW(BALLS, 2));
-  tcase_add_loop_test(c, what_strikes_faster_than_sound_is_not_turned_inside_out, 0, HARNESS_FEW(5, 2));
+  tcase_add_loop_test(c, impacts_faster_than_sound_do_not_invert_bodies, 0, HARNESS_FEW(5, 2));
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -128,7 +128,7 @@ typedef struct shown {
   sbr_double3 origin;
 } shown;
 
-/* What is to be seen after each second, at an even rate. */
+/* Displayed state after each second, at an even rate. */
 static void watch(const stage *s, int fps, shown *seconds) {
   walk w = begin(s);
   for (int second = 0; second < SECONDS; second++) {

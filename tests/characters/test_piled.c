@@ -42,7 +42,7 @@ static double deepest(const sbf_polygon_mesh *mesh, const sbf_vec3 *in, const sb
 }
 
 /* From 20 m: no deeper at last than the thickness within which faces answer for themselves. */
-START_TEST(armadillos_dropped_hard_come_apart)
+START_TEST(armadillos_dropped_hard_separate)
 {
   static const struct {
     float young_pa, x, heading;
@@ -90,7 +90,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("piled");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, armadillos_dropped_hard_come_apart, 0, 6);
+  tcase_add_loop_test(tests, armadillos_dropped_hard_separate, 0, 6);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

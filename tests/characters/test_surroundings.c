@@ -1,5 +1,5 @@
-/* Colliders around a character that walks: what is high is a wall, what is low is stepped on, what moves
- * carries it, and where nothing bears it, it falls. */
+/* Colliders around a walking character: high ones are walls, low ones are stepped on, moving ones
+ * carry it, and without ground it falls. */
 #include <math.h>
 #include <stdio.h>
 
@@ -273,7 +273,7 @@ START_TEST(a_bridge_is_walked_under)
 }
 END_TEST
 
-/* The ground is far below: a floor of colliders alone bears it. */
+/* The ground is far below: it stands on a floor of colliders. */
 START_TEST(a_lift_lifts_it)
 {
   scene s = scene_of(pup_model, -50, 0);
@@ -315,7 +315,7 @@ START_TEST(a_lift_lowers_a_snake)
 }
 END_TEST
 
-START_TEST(a_turntable_carries_and_turns_it)
+START_TEST(a_turntable_carries_and_rotates_it)
 {
   scene s = scene_of(pup_model, -50, 0);
   sbr_collider_id floor = box(&s, (sbr_double3){0.5, -0.1, 0}, (sbf_vec3){2, 0.1f, 2});
@@ -333,7 +333,7 @@ START_TEST(a_turntable_carries_and_turns_it)
 }
 END_TEST
 
-START_TEST(it_falls_where_its_floor_goes)
+START_TEST(it_falls_when_the_floor_is_removed)
 {
   scene s = scene_of(pup_model, 0, 2);
   sbr_collider_id floor = box(&s, (sbr_double3){0, 1.9, 0}, (sbf_vec3){1, 0.1f, 1});
@@ -373,7 +373,7 @@ START_TEST(a_door_pushes_it)
 END_TEST
 
 /* A ball of 20 g is no wall; one of 10 t is. */
-START_TEST(what_is_light_gives_way)
+START_TEST(light_obstacles_are_pushed_away)
 {
   const float masses[2] = {0.02f, 1e4f};
   scene s = scene_of(pup_model, 0, 0);
@@ -432,10 +432,10 @@ int main(void) {
   tcase_add_test(tests, a_bridge_is_walked_under);
   tcase_add_test(tests, a_lift_lifts_it);
   tcase_add_test(tests, a_lift_lowers_a_snake);
-  tcase_add_test(tests, a_turntable_carries_and_turns_it);
-  tcase_add_test(tests, it_falls_where_its_floor_goes);
+  tcase_add_test(tests, a_turntable_carries_and_rotates_it);
+  tcase_add_test(tests, it_falls_when_the_floor_is_removed);
   tcase_add_test(tests, a_door_pushes_it);
-  tcase_add_loop_test(tests, what_is_light_gives_way, 0, 2);
+  tcase_add_loop_test(tests, light_obstacles_are_pushed_away, 0, 2);
   tcase_add_test(tests, a_fish_stays_in_its_tank);
   tcase_add_test(tests, no_wall_is_passed_at_speed);
   suite_add_tcase(suite, tests);

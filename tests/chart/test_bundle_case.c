@@ -45,7 +45,7 @@ START_TEST(small_ones_are_driven_as_stated)
 }
 END_TEST
 
-START_TEST(large_ones_turn_and_hop_more_slowly_by_the_root_of_their_size)
+START_TEST(rotation_and_hops_slow_by_the_root_of_size)
 {
   chart_drive drive = drive_of(8);
   ck_assert_float_eq_tol(drive.turn_rad_s, chart_usual_drive.turn_rad_s / 2, 1e-6f);
@@ -61,7 +61,7 @@ int main(void) {
   Suite *suite = suite_create("bundle_case");
   TCase *c = tcase_create("bundle_case");
   tcase_add_loop_test(c, small_ones_are_driven_as_stated, 0, 3);
-  tcase_add_test(c, large_ones_turn_and_hop_more_slowly_by_the_root_of_their_size);
+  tcase_add_test(c, rotation_and_hops_slow_by_the_root_of_size);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

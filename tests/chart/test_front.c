@@ -6,19 +6,19 @@
 
 #include "harness.h"
 
-START_TEST(only_what_nothing_beats_is_on_it)
+START_TEST(only_undominated_entries_are_on_the_front)
 {
   const chart_point points[] = {{4, 1}, {1, 5}, {2, 3}, {3, 3}, {2, 3}, {5, 2}, {NAN, 0}, {0.5, NAN}, {8, 0}};
   uint32_t front[9];
   ck_assert_uint_eq(chart_front_of(points, 9, front), 4);
   ck_assert_uint_eq(front[0], 1);
-  ck_assert_uint_eq(front[1], 2); /* the first of two alike */
+  ck_assert_uint_eq(front[1], 2); /* the first of two equal ones */
   ck_assert_uint_eq(front[2], 0);
   ck_assert_uint_eq(front[3], 8);
 }
 END_TEST
 
-START_TEST(of_nothing_there_is_none)
+START_TEST(no_entries_have_no_front)
 {
   uint32_t front[1];
   ck_assert_uint_eq(chart_front_of(NULL, 0, front), 0);
@@ -54,8 +54,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("front");
   TCase *c = tcase_create("front");
-  tcase_add_test(c, only_what_nothing_beats_is_on_it);
-  tcase_add_test(c, of_nothing_there_is_none);
+  tcase_add_test(c, only_undominated_entries_are_on_the_front);
+  tcase_add_test(c, no_entries_have_no_front);
   tcase_add_test(c, every_other_point_is_beaten);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -37,7 +37,7 @@ END_TEST
 /* A tenth below the bound of the stiffest mode nothing grows, beyond it all is lost, whatever hangs at the
  * end. Just beyond its own explicit Euler gains too slowly for 600 ticks to show it. Of regions the
  * stiffest mode is the runtime's own estimate. */
-START_TEST(bodies_die_where_their_stiffest_mode_does)
+START_TEST(bodies_become_unstable_with_their_stiffest_mode)
 {
   static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_HEUN, SBF_SCHEME_EXPLICIT_EULER};
   static const double ratios[] = {1, 30};
@@ -58,7 +58,7 @@ END_TEST
 
 /* One sweep of position-based steps is too soft where the stiffest mode turns by more than about half a
  * radian, the more so the heavier the end; block descent damps what it does not lose. */
-START_TEST(what_does_not_die_is_soft_or_damped)
+START_TEST(stable_bodies_are_soft_or_damped)
 {
   double off[2], hangs[2];
   for (int k = 0; k < 2; k++) {
@@ -95,8 +95,8 @@ int main(void) {
   Suite *suite = suite_create("hung_body");
   TCase *c = tcase_create("hung_body");
   tcase_add_test(c, a_chain_has_the_modes_of_the_books);
-  tcase_add_loop_test(c, bodies_die_where_their_stiffest_mode_does, 0, 3);
-  tcase_add_test(c, what_does_not_die_is_soft_or_damped);
+  tcase_add_loop_test(c, bodies_become_unstable_with_their_stiffest_mode, 0, 3);
+  tcase_add_test(c, stable_bodies_are_soft_or_damped);
   tcase_add_test(c, poisson_ratios_move_the_stiffest_mode_alone);
   suite_add_tcase(suite, c);
   return harness_run(suite);

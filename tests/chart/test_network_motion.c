@@ -70,8 +70,8 @@ START_TEST(a_pendulum_has_its_period)
 }
 END_TEST
 
-/* One tetrahedron of three free corners, let go under gravity: what it moves with was its energy. */
-START_TEST(a_tetrahedron_keeps_its_energy)
+/* One tetrahedron with three free corners, released under gravity: its energy is conserved. */
+START_TEST(a_tetrahedron_conserves_energy)
 {
   static const sbf_vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
   sbf_asset *asset = chart_mass_on_spring(1, 1);
@@ -103,7 +103,7 @@ int main(void) {
   tcase_add_test(c, a_spring_swings_as_a_cosine);
   tcase_add_test(c, a_chain_swings_in_all_its_modes);
   tcase_add_test(c, a_pendulum_has_its_period);
-  tcase_add_test(c, a_tetrahedron_keeps_its_energy);
+  tcase_add_test(c, a_tetrahedron_conserves_energy);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

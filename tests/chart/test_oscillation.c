@@ -33,7 +33,7 @@ START_TEST(a_sine_has_its_period_and_height)
 }
 END_TEST
 
-START_TEST(a_swing_that_fades_has_its_ratio)
+START_TEST(a_decaying_oscillation_has_a_damping_ratio)
 {
   double signal[COUNT];
   chart_swing swing;
@@ -47,7 +47,7 @@ START_TEST(a_swing_that_fades_has_its_ratio)
 }
 END_TEST
 
-START_TEST(what_does_not_swing_has_none)
+START_TEST(monotonic_signals_have_no_oscillation)
 {
   double signal[COUNT];
   chart_swing swing;
@@ -64,8 +64,8 @@ int main(void) {
   Suite *suite = suite_create("oscillation");
   TCase *c = tcase_create("oscillation");
   tcase_add_test(c, a_sine_has_its_period_and_height);
-  tcase_add_test(c, a_swing_that_fades_has_its_ratio);
-  tcase_add_test(c, what_does_not_swing_has_none);
+  tcase_add_test(c, a_decaying_oscillation_has_a_damping_ratio);
+  tcase_add_test(c, monotonic_signals_have_no_oscillation);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -23,7 +23,7 @@ static bool is_there(const char *folder, const char *name) {
   return access(path, F_OK) == 0;
 }
 
-START_TEST(a_folder_is_made_with_all_or_not)
+START_TEST(a_folder_is_made_with_all_files_or_not_at_all)
 {
   char path[512];
   chart_folder folder;
@@ -39,7 +39,7 @@ START_TEST(a_folder_is_made_with_all_or_not)
   ck_assert(!is_there(path, "a.csv"));
   ck_assert_int_eq(chart_folder_commit(&folder, &error), SBF_OK);
   ck_assert(is_there(path, "a.csv") && is_there(path, "b.svg") && access(folder.temporary, F_OK) != 0);
-  /* and again, over what is there, beside what else is */
+  /* and again, over the existing files and beside others */
   ck_assert_int_eq(chart_folder_begin(&folder, path, &error), SBF_OK);
   put(&folder, "b.svg", "3"), put(&folder, "c.csv", "4");
   ck_assert_int_eq(chart_folder_commit(&folder, &error), SBF_OK);
@@ -73,7 +73,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("out_folder");
   TCase *c = tcase_create("out_folder");
-  tcase_add_test(c, a_folder_is_made_with_all_or_not);
+  tcase_add_test(c, a_folder_is_made_with_all_files_or_not_at_all);
   tcase_add_test(c, invalid_output_folders_are_reported_first);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -1,4 +1,4 @@
-/* A reference that is too coarse for what it is to judge makes itself finer. */
+/* A reference that is too coarse for its measurements is refined. */
 #include "chart/reference.h"
 
 #include <stdlib.h>
@@ -47,7 +47,7 @@ static double stated_share(const found *f) {
   return f->stated.errors[CHART_PATH] / chart_extent_of(&f->truth.track, f->rest);
 }
 
-/* Two runs of the same motion, looked at from anew: how far the first is off the second. */
+/* Two runs of the same motion: the distance of the first from the second. */
 static double separation(
     const found *f, const sbf_scheme schemes[2], const uint32_t substeps[2], double *errors) {
   chart_track tracks[2];
@@ -73,7 +73,7 @@ static double apart_by(const found *f, uint32_t substeps) {
 }
 
 /* With as many substeps as it begins with, gas in a ball is not followed as near as that. */
-START_TEST(it_takes_more_substeps_until_it_has_converged)
+START_TEST(substeps_increase_until_convergence)
 {
   found f;
   find(&f, chart_case_named("pressure"), false);
@@ -86,7 +86,7 @@ START_TEST(it_takes_more_substeps_until_it_has_converged)
 END_TEST
 
 /* Each second pair begins with the run that the first one ended with: it is the one that it would be. */
-START_TEST(a_mesh_is_measured_by_the_pair_that_it_states)
+START_TEST(a_mesh_is_measured_by_its_stated_pair)
 {
   found f;
   double errors[CHART_AXIS_COUNT];
@@ -104,7 +104,7 @@ END_TEST
 
 /* What hits the ground does so in another tick, by however many substeps. From where the case drops its ball
  * more substeps do come nearer, from higher up they do not. */
-START_TEST(where_more_come_no_nearer_it_stays_as_it_is)
+START_TEST(substeps_that_do_not_help_are_not_added)
 {
   found f;
   chart_case higher = *chart_case_named("drop");
@@ -120,9 +120,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("reference");
   TCase *c = tcase_create("reference");
-  tcase_add_test(c, it_takes_more_substeps_until_it_has_converged);
-  tcase_add_test(c, a_mesh_is_measured_by_the_pair_that_it_states);
-  tcase_add_test(c, where_more_come_no_nearer_it_stays_as_it_is);
+  tcase_add_test(c, substeps_increase_until_convergence);
+  tcase_add_test(c, a_mesh_is_measured_by_its_stated_pair);
+  tcase_add_test(c, substeps_that_do_not_help_are_not_added);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

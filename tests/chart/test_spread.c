@@ -16,7 +16,7 @@ START_TEST(quartiles_lie_between_samples)
 }
 END_TEST
 
-START_TEST(what_is_far_off_is_counted_and_stays)
+START_TEST(outliers_are_counted_and_kept)
 {
   double samples[] = {10, 11, 12, 13, 14, 100, 11.5, 12.5, -50};
   chart_spread s = chart_spread_of(samples, 9);
@@ -39,7 +39,7 @@ int main(void) {
   Suite *suite = suite_create("spread");
   TCase *c = tcase_create("spread");
   tcase_add_test(c, quartiles_lie_between_samples);
-  tcase_add_test(c, what_is_far_off_is_counted_and_stays);
+  tcase_add_test(c, outliers_are_counted_and_kept);
   tcase_add_test(c, one_sample_is_all_of_them);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -15,7 +15,7 @@ static chart_verdict check(sbf_scheme scheme, double turn, double damping) {
 
 /* Not a twentieth below it; 15 % above it explicit Euler with a ratio of 0.1 has gained 62 times its energy
  * by the end, 5 % above it but 3.5 times. */
-START_TEST(steps_die_beyond_their_bound_and_not_before)
+START_TEST(steps_become_unstable_only_beyond_their_bound)
 {
   static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN};
   static const double ratios[] = {0.1, 0.3, 0.6, 0.9};
@@ -43,7 +43,7 @@ START_TEST(bounds_are_those_of_the_books)
 END_TEST
 
 /* Undamped: symplectic's frequency is off by (w h)^2 / 24, implicit steps' damping by w h / 2. */
-START_TEST(what_is_off_is_what_the_scheme_adds)
+START_TEST(measured_errors_are_those_of_the_scheme)
 {
   chart_verdict v = check(SBF_SCHEME_SYMPLECTIC, 0.5, 0);
   ck_assert_int_eq(v.outcome, CHART_SOUND);
@@ -58,7 +58,7 @@ END_TEST
 
 /* Damped by z: the first order of |s' - s| / w is z w h / (2 sqrt(1 - z^2)), and what damping grows by z^2 w
  * h, since a step's damping goes by the speed before it. Undamped there is no first order at all. */
-START_TEST(damping_makes_symplectic_steps_off_in_proportion)
+START_TEST(errors_of_symplectic_steps_grow_with_damping)
 {
   static const double ratios[] = {0.1, 0.3, 0.5}, turns[] = {0.03, 0.06};
   for (int i = 0; i < 3; i++)
@@ -110,10 +110,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("stability");
   TCase *c = tcase_create("stability");
-  tcase_add_loop_test(c, steps_die_beyond_their_bound_and_not_before, 0, 3);
+  tcase_add_loop_test(c, steps_become_unstable_only_beyond_their_bound, 0, 3);
   tcase_add_test(c, bounds_are_those_of_the_books);
-  tcase_add_test(c, what_is_off_is_what_the_scheme_adds);
-  tcase_add_test(c, damping_makes_symplectic_steps_off_in_proportion);
+  tcase_add_test(c, measured_errors_are_those_of_the_scheme);
+  tcase_add_test(c, errors_of_symplectic_steps_grow_with_damping);
   tcase_add_test(c, implicit_steps_live_and_are_biased);
   tcase_add_test(c, frames_move_no_bound);
   suite_add_tcase(suite, c);

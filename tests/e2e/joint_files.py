@@ -39,7 +39,7 @@ class Case:
         self.offset = offset or {}
 
     def target(self, coordinate, which):
-        """Where the drive leads: to its position, or to what lies beyond a bound."""
+        """Target of the drive: its position, or the bound that limits it."""
         position, bounds = self.motions[coordinate]
         if which == "drive" or not bounds:
             return position
@@ -81,7 +81,7 @@ def add(parent, tag, **attributes):
 
 
 def add_joint(root, case, number, centers, which):
-    """Both frames are at the same place and turned alike at rest, but for the case's offset."""
+    """Both frames have the same position and rotation at rest, except for the case's offset."""
     anchor = [c - d for c, d in zip(centers[case.name], (0.2, 0.03, -0.05))]
     bodies = (case.on, case.name)[::-1] if case.turned else (case.on, case.name)
     joint = add(root, f"{case.kind}_joint", id=f"{case.name}_joint", body_a=bodies[0], body_b=bodies[1])

@@ -116,7 +116,7 @@ class ProgramTest(unittest.TestCase):
         return report
 
     def fails(self, status, *arguments, **options):
-        """A failure that says what is wrong, and is no crash. Returns the message."""
+        """A failure with a message and without a crash. Returns the message."""
         result = call(*arguments, **options)
         self.assertEqual(result.status, status, f"{result.out}\n{result.err}")
         self.assertIn("error: ", result.err)

@@ -26,7 +26,7 @@ class Attachments(ProgramTest):
         self.good("validate", "--strict", self.path("out.sbf"))
         return self.json_of("info", self.path("out.sbf"))
 
-    def test_a_hull_holds_what_lies_inside(self):
+    def test_vertices_inside_a_hull_are_pinned(self):
         for options in (("--elements", 500), ("--springs", "lattice", "--cell", 0.15)):
             info = self.converted("--attach", "flesh=inside", *options)
             self.assertEqual([s["name"] for s in info["sections"]], ["flesh"])
@@ -41,14 +41,14 @@ class Attachments(ProgramTest):
                 inside = all(0.3 <= x <= 0.7 for x in numbers[3 * i:3 * i + 3])
                 self.assertEqual(i in held, inside, numbers[3 * i:3 * i + 3])
 
-    def test_a_held_body_does_not_fall(self):
+    def test_a_pinned_body_does_not_fall(self):
         self.converted("--attach", "flesh=inside", "--elements", 500)
         held = self.json_of("run", self.path("out.sbf"), "--seconds", 1)
         self.assertTrue(held["valid"])
         self.assertGreater(held["volume_ratio_least"], 0.95)
         self.assertLess(held["max_strain"], 0.2)
 
-    def test_a_section_hangs_on_another_bone_too(self):
+    def test_a_section_is_attached_to_a_second_bone(self):
         self.good("convert", os.path.join(EXAMPLE, "lizard.obj"), "--rig", os.path.join(EXAMPLE, "lizard.glb"), "-o",
                   self.path("out.sbf"), "--attach", "Tail2=Tail1", "--no-build")
         self.assertEqual(self.json_of("info", self.path("out.sbf"))["attachments"], 1)

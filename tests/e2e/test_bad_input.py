@@ -46,7 +46,7 @@ class FilesThatBreakOthers(ProgramTest):
     def test_the_table_is_complete(self):
         self.assertEqual(set(os.listdir(shared("bad"))) - {"README.md"}, set(self.CODES))
 
-    def test_what_others_say_becomes_part_of_the_sentence(self):
+    def test_messages_of_libraries_become_part_of_the_sentence(self):
         whole = read_bytes(os.path.join(ROOT, "examples", "lizard", "lizard.glb"))
         half = write_bytes(self.path("half.glb"), whole[:len(whole) // 2])
         message = self.fails(BAD_INPUT, "convert", half, "-o", self.path("out.sbf"))
@@ -62,7 +62,7 @@ class FilesThatBreakOthers(ProgramTest):
             self.assertIn(f"compressed by {name}, which is not supported: export them without compression", message)
             self.assert_empty_folder(but=["packed.gltf"])
 
-    def test_an_old_file_stands_after_a_failure(self):
+    def test_a_failure_keeps_the_old_file(self):
         out = write_bytes(self.path("out.sbf"), b"what was there")
         self.fails(BAD_INPUT, "convert", shared("bad", "empty_init_from.dae"), "-o", out)
         self.assertEqual(read_bytes(out), b"what was there")
@@ -79,7 +79,7 @@ class BundlesThatAreNotValid(ProgramTest):
     OVERLAP = (("o.node", b"5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .1 .1 .8\n"),
                ("o.ele", b"2 4 0\n1 1 2 3 4\n2 1 2 3 5\n"))
 
-    def test_what_validate_refuses_is_never_written(self):
+    def test_invalid_assets_are_never_written(self):
         for name, content in self.OVERLAP:
             write_bytes(self.path(name), content)
         for ending in ("sbf", "sbfz"):
@@ -121,7 +121,7 @@ class Calls(ProgramTest):
         super().setUpClass()
         cls.file = example(cls.class_folder.name)
 
-    def test_a_missing_file_is_the_machines_fault(self):
+    def test_a_missing_file_is_a_system_error(self):
         absent = self.path("absent.sbf")
         for arguments in (("info", absent), ("validate", absent), ("pack", absent, "-o", self.path("x.sbfz")),
                           ("unpack", absent, "-o", self.path("x.sbf")), ("build", absent, "-o", self.path("x.sbf")),
@@ -132,7 +132,7 @@ class Calls(ProgramTest):
                 self.assertIn("absent", self.fails(FAILED, *arguments))
         self.assert_empty_folder()
 
-    def test_an_output_that_cannot_be_written(self):
+    def test_an_unwritable_output(self):
         nowhere = self.path("no such folder/out.sbf")
         for arguments in (("pack", self.file, "-o", nowhere + "z"), ("unpack", self.file, "-o", nowhere),
                           ("build", self.file, "-o", nowhere),
@@ -143,7 +143,7 @@ class Calls(ProgramTest):
                 self.fails(FAILED, *arguments)
         self.assert_empty_folder()
 
-    def test_a_folder_in_the_place_of_the_output(self):
+    def test_a_folder_at_the_output_path(self):
         os.mkdir(self.path("out.sbf"))
         self.fails(FAILED, "unpack", self.file, "-o", self.path("out.sbf"))
         self.assertEqual(os.listdir(self.path("out.sbf")), [])
@@ -165,7 +165,7 @@ class Calls(ProgramTest):
                 self.assertIn("error: standard output could not be written", result.err)
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full here")
-    def test_what_could_not_be_written_is_not_called_built(self):
+    def test_failed_writes_are_not_reported_as_built(self):
         mesh = write_bytes(self.path("cube.obj"), CUBE)
         for arguments in (("convert", mesh, "--elements", "100"), ("build", self.file)):
             with self.subTest(arguments):
@@ -210,13 +210,13 @@ class Calls(ProgramTest):
             os.remove(pipe)
         self.assert_empty_folder(but=["cube.obj"])
 
-    def test_inputs_and_outputs_that_cannot_be_meant(self):
+    def test_contradictory_inputs_and_outputs(self):
         self.assertIn("standard input is not supported", self.fails(FAILED, "info", "-"))
         printed = self.fails(FAILED, "unpack", self.file, "-o", self.path("a.sbf"), "-o", self.path("b.sbf"))
         self.assertIn("-o is given twice", printed)
         self.assert_empty_folder()
 
-    def test_calls_that_are_wrong(self):
+    def test_wrong_calls(self):
         for arguments in ((), ("frobnicate",), ("info",), ("info", self.file, self.file), ("info", "--no-such"),
                           ("info", self.file, "--format", "xml"), ("pack", self.file), ("pack", self.file, "-o"),
                           ("pack", self.file, "-o", self.path("x"), "--level", "10"), ("diff", self.file),
@@ -235,7 +235,7 @@ class Calls(ProgramTest):
                 self.assertTrue(result.err or "Usage" in result.out)
         self.assert_empty_folder()
 
-    def test_no_slip_writes_over_what_was_read(self):
+    def test_inputs_are_never_overwritten(self):
         """A file that is written has an ending of its own form."""
         mesh = write_bytes(self.path("cube.obj"), CUBE)
         bundle = self.path("cube.sbf")
@@ -264,7 +264,7 @@ class Calls(ProgramTest):
         self.good("convert", one, two, self.path("b/other.obj"), "--out-dir", self.path("out"), "--no-build")
         self.assertEqual(sorted(os.listdir(self.path("out"))), [".sbfmt", "a-cube.sbf", "b-cube.sbf", "other.sbf", "summary.tsv"])
 
-    def test_the_folder_of_many_is_made(self):
+    def test_the_output_folder_is_created(self):
         mesh, folder = write_bytes(self.path("cube.obj"), CUBE), self.path("out")
         self.good("convert", mesh, "--out-dir", folder)
         self.assertEqual(sorted(os.listdir(folder)), [".sbfmt", "cube.sbf", "summary.tsv"])
@@ -344,7 +344,7 @@ class DamagedBundles(ProgramTest):
                 self.good("unpack", changed, "-o", self.path("whole.sbf"))
                 self.assertEqual(read_bytes(self.path("whole.sbf")), read_bytes(self.xml))
 
-    def test_what_is_no_bundle(self):
+    def test_files_that_are_not_bundles(self):
         for content in (b"", b"\0", b"hello", b"<html></html>", b"\x89PNG\r\n\x1a\n", b"<?xml version='1.0'?>",
                         b"\xff\xfe<\0s\0b\0f\0", b"<sbf/>", b"<sbf version='9.0'/>", b"<sbf version='1.0'>",
                         b"<!DOCTYPE sbf [<!ENTITY a 'b'>]><sbf version='1.0'/>"):
@@ -352,7 +352,7 @@ class DamagedBundles(ProgramTest):
             self.fails(BAD_INPUT, "info", path)
             self.assertFalse(self.json_of("validate", path, status=BAD_INPUT)["valid"])
 
-    def test_a_fault_is_given_with_its_line_and_path(self):
+    def test_errors_have_line_and_path(self):
         text = read_bytes(self.xml).replace(b'length="0.5"', b'length="long"')
         line = text[:text.index(b'length="long"')].count(b"\n") + 1
         report = self.json_of("validate", write_bytes(self.path("x.sbf"), text), status=BAD_INPUT)
@@ -381,7 +381,7 @@ class DamagedBundles(ProgramTest):
         self.good("validate", "--fix", "-o", self.path("fixed.sbf"), self.path("x.sbfz"))
         self.assertIn(kept, read_bytes(self.path("fixed.sbf")))
 
-    def test_a_newer_minor_version_is_read_without_what_it_adds(self):
+    def test_a_newer_minor_version_is_read_without_its_additions(self):
         text = b"<sbf version='1.7' mood='calm'><skeleton><bone id='a' head='0 0 0' weather='fine'><fur/></bone>" \
                b"</skeleton><fog density='2'><x>1</x></fog></sbf>"
         self.good("unpack", write_bytes(self.path("x.sbf"), text), "-o", self.path("y.sbf"))
@@ -400,7 +400,7 @@ class HalfACharacter(ProgramTest):
         self.assertEqual({s["bone"] for s in info["sections"]}, {None})
         self.assertEqual(info["pins"], 0)
 
-    def test_a_rig_that_holds_no_skeleton(self):
+    def test_a_rig_without_a_skeleton(self):
         message = self.fails(BAD_INPUT, "convert", shared("lizard", "liz.obj"), "--rig", shared("lizard", "liz.obj"),
                              "-o", self.path("x.sbf"))
         self.assertIn("IMPORT_NO_BONES", message)

@@ -113,7 +113,7 @@ class FilesOfBlender(ProgramTest):
                 self.assertLess(min(gaps), 2e-3)
 
     @needs_node
-    def test_three_draws_what_blender_drew(self):
+    def test_three_and_blender_draw_the_same(self):
         for file, expected in self.made.items():
             with self.subTest(file):
                 path = os.path.join(self.class_folder.name, file)
@@ -129,7 +129,7 @@ class BindSpace(ProgramTest):
         return {name: (sources, points) for name, sources, points in placed_points(out)}
 
     def assert_placed(self, found, expected, size):
-        """All of them alike, up to the quarter turn that looks along +Z and the lift to the ground."""
+        """All are equal, except for the quarter rotation to +Z and the lift to the ground."""
         for count in range(4):
             turned_by = quarter(expected, count)
             lift = found[0][1] - turned_by[0][1]
@@ -263,7 +263,7 @@ class SharedFiles(ProgramTest):
 
     @needs_node
     def test_three_draws_every_vertex_by_the_formula(self):
-        """As saved, skinned or not: the formula that the cases above hold conversions to is that of a viewer."""
+        """As saved, skinned or not: the cases above compare conversions with the formula of viewers."""
         for path in shared_files():
             with self.subTest(file=os.path.relpath(path, shared(".."))):
                 compare_with_three(self, path, self.path("bare.glb"))

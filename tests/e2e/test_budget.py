@@ -25,7 +25,7 @@ class Budget(ProgramTest):
         printed = SAID.search(result.err)
         return out, printed and [float(number) if number else None for number in printed.groups()], result.err
 
-    def test_it_takes_the_cheapest_that_is_near_the_finest(self):
+    def test_the_cheapest_candidate_near_the_finest_is_chosen(self):
         usual, printed, _ = self.converted("usual", "--budget", "none")
         self.assertIsNone(printed)
         self.assertEqual(elements_of(usual), {None})
@@ -82,7 +82,7 @@ class Budget(ProgramTest):
         first, second = (self.converted(name, "--budget", "90")[0] for name in ("first", "second"))
         self.assertEqual(read_bytes(first), read_bytes(second))
 
-    def test_less_leaves_the_smallest_parts_out_on_both_sides(self):
+    def test_smaller_budgets_drop_the_smallest_parts_on_both_sides(self):
         _, (_, _, visits, _), _ = self.converted("some", "--budget", "100")
         made, (_, _, less, maximum), err = self.converted("less", "--budget", f"{0.85 * visits * 0.006:.3g}")
         self.assertLessEqual(less, maximum)
@@ -94,7 +94,7 @@ class Budget(ProgramTest):
         self.assertEqual({name for name in soft if name.endswith(".L")}, {name[:-1] + "L" for name in soft if name.endswith(".R")})
         self.assertEqual({s["bone"] for s in self.json_of("info", made)["sections"]}, soft)
 
-    def test_a_quarter_is_for_soft_parts_whatever_the_skin_takes(self):
+    def test_soft_parts_get_a_quarter_of_the_budget(self):
         made, (_, _, visits, maximum), err = self.converted("quarter", "--budget", "40")
         self.assertLessEqual(visits, maximum)
         self.assertGreater(0.006 * maximum, 50, "the skin alone takes more than the budget")
@@ -115,7 +115,7 @@ class Budget(ProgramTest):
             self.assertIn("leave out " + option[0], self.fails(2, "convert", CALF, "-o", out, "--budget", "50", *option))
         self.assertFalse(os.path.exists(out))
 
-    def test_what_has_no_sections_to_choose_is_converted_as_usual(self):
+    def test_inputs_without_sections_are_converted_as_usual(self):
         cube = self.path("cube.obj")
         with open(cube, "w", encoding="utf-8") as file:
             file.writelines(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))

@@ -28,13 +28,13 @@ class Forms(ProgramTest):
             result = call("pack", cls.xml, "-o", out, *options)
             assert result.status == 0, result.err
 
-    def test_xml_goes_round_with_the_same_bytes(self):
+    def test_xml_round_trips_to_the_same_bytes(self):
         for packed in (self.packed, self.stored):
             out = self.path("again.sbf")
             self.good("unpack", packed, "-o", out)
             self.assertEqual(read_bytes(out), read_bytes(self.xml))
 
-    def test_packed_goes_round_with_the_same_bytes(self):
+    def test_packed_round_trips_to_the_same_bytes(self):
         for packed, *options in ((self.packed,), (self.stored, "--store")):
             xml, again = self.path("a.sbf"), self.path("a.sbfz")
             self.good("unpack", packed, "-o", xml)
@@ -48,7 +48,7 @@ class Forms(ProgramTest):
         self.good("build", self.xml, "-o", out)
         self.assertEqual(read_bytes(out), read_bytes(self.packed))
 
-    def test_xml_that_is_not_canonical_is_brought_there(self):
+    def test_xml_is_made_canonical(self):
         text = read_text(self.xml)
         odd = re.sub(r'<bone id="([^"]*)" name="([^"]*)"', r"<bone  name='\2'   id='\1'", text)
         odd = odd.replace("\n", "\r\n").replace("<skeleton>", "<!-- the rig --><skeleton>")
@@ -92,7 +92,7 @@ class Forms(ProgramTest):
         self.assertIn("soft_body[1]", result.out)
         self.assertIn("density", result.out)
 
-    def test_what_cannot_be_compared_is_neither(self):
+    def test_unreadable_files_are_neither_equal_nor_different(self):
         self.fails(2, "diff", self.xml, self.path("absent.sbf"))
         broken = write_bytes(self.path("broken.sbf"), read_bytes(self.xml)[:-10])
         self.fails(2, "diff", broken, self.xml)
@@ -137,7 +137,7 @@ class Forms(ProgramTest):
             self.assertLessEqual({"code", "severity", "message", "path"}, set(message))
             self.assertTrue("line" in message or "offset" in message or message["path"])
 
-    def test_validate_finds_damage_in_what_a_load_does_not_read(self):
+    def test_validate_finds_damage_in_chunks_that_a_load_does_not_read(self):
         """The outline's checksum, and the zeros between chunks."""
         whole = read_bytes(self.packed)
         count = int.from_bytes(whole[40:44], "little")
@@ -151,7 +151,7 @@ class Forms(ProgramTest):
             report = self.json_of("validate", write_bytes(self.path("damaged.sbfz"), bytes(damaged)), status=1)
             self.assertEqual([message["code"] for message in report["messages"] if message["severity"] == "error"], [code])
 
-    def test_packing_leaves_nothing_beside(self):
+    def test_packing_leaves_no_other_files(self):
         self.good("pack", self.xml, "-o", self.path("only.sbfz"))
         self.assert_empty_folder(but=["only.sbfz"])
 

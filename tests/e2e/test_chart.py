@@ -89,7 +89,7 @@ class Charts(ProgramTest):
         self.assertLess(report["cases"][0]["references"][0]["errors"]["path_m"], 1e-7)
 
     @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
-    def test_drawings_hold_every_line(self):
+    def test_drawings_contain_every_line(self):
         self.chart("--case", "pendulum")
         for axis in ("path_m", "farthest_m", "period", "amplitude", "energy"):
             drawing = read_text(os.path.join(self.out, f"pendulum-{axis}.svg"))
@@ -118,7 +118,7 @@ class Charts(ProgramTest):
         for name in drawings:
             self.assertEqual(read_text(os.path.join(again, name)), read_text(os.path.join(self.out, name)), name)
 
-    def test_tables_that_are_none_are_not_drawn(self):
+    def test_invalid_tables_are_not_drawn(self):
         self.chart("--no-svg", "--case", "spring")
         table, runs = (read_text(os.path.join(self.out, name)) for name in ("spring.csv", "spring-runs.csv"))
         again = os.path.join(self.place, "again")
@@ -156,13 +156,13 @@ class Charts(ProgramTest):
         self.assertEqual(visits, sorted(visits))
         self.assertGreater(visits[-1], 3 * visits[0])
 
-    def test_without_gnuplot_tables_stay(self):
+    def test_without_gnuplot_tables_are_kept(self):
         result = call("chart", "-o", self.out, "--case", "spring", *QUICK, environment={"PATH": self.place})
         self.assertEqual(result.status, 2)
         self.assertIn("gnuplot-nox", result.err)
         self.assertEqual(sorted(os.listdir(self.out)), ["spring-runs.csv", "spring.csv"])
 
-    def test_older_files_stay_beside_new_ones(self):
+    def test_older_files_are_kept_beside_new_ones(self):
         os.mkdir(self.out)
         with open(os.path.join(self.out, "mine.txt"), "w", encoding="utf-8") as stream:
             stream.write("mine")

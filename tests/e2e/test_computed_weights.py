@@ -1,4 +1,4 @@
-"""An OBJ with a skeleton that has no mesh: weights computed from the bones, shells given to bones, and what is refused."""
+"""An OBJ with a skeleton that has no mesh: weights computed from the bones, shells assigned to bones, and refused inputs."""
 
 import json
 import math
@@ -128,7 +128,7 @@ class ComputedWeights(ProgramTest):
         done = self.good("convert", self.obj, "--rig", self.rig, *SOURCE_PARTS, "-o", out, *options)
         return {i: weight for i, (weight, _) in weights_by_vertex(out).items()}, done.err
 
-    def test_each_bone_holds_its_part(self):
+    def test_each_bone_moves_its_part(self):
         weights, reported = self.weights()
         self.assertIn("computed from 3 bones: 2 of 3 shells move with one bone each", reported)
         self.assertEqual(len(weights), 372 + 72)
@@ -140,7 +140,7 @@ class ComputedWeights(ProgramTest):
         for i in range(372, 444):
             self.assertEqual(weights[i], {"upper": 1} if i < 408 else {"fore": 1})
 
-    def test_any_form_may_hold_the_bones_alone(self):
+    def test_any_format_may_contain_bones_alone(self):
         from_bvh, _ = self.weights()
         for name, write, options in (("skin.gltf", write_gltf, (True, "metarig")),
                                      ("nodes.gltf", write_gltf, (False, "Armature")),
@@ -154,7 +154,7 @@ class ComputedWeights(ProgramTest):
                 for i, expected in from_bvh.items():  # whose last bone states its length
                     self.assertEqual(strongest(weights[i]), strongest(expected))
 
-    def test_a_far_end_of_the_last_bone_counts_for_nothing(self):
+    def test_a_far_end_of_the_last_bone_is_ignored(self):
         """Exporters mark the end of a limb as far away as their own setting says."""
         write_gltf(self.path("rig.gltf"), True, "metarig")
         with open(self.path("rig.gltf"), encoding="utf-8") as stream:
@@ -184,8 +184,8 @@ class ComputedWeights(ProgramTest):
         printed = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"))
         self.assertIn("IMPORT_EMPTY", printed)
 
-    def test_arms_that_hang_get_the_bones_of_arms_stretched_out(self):
-        """The rig's limbs are turned to lie in the mesh; its clips still say what they said."""
+    def test_hanging_arms_get_the_bones_of_stretched_arms(self):
+        """The rig's limbs are rotated into the mesh; its clips keep their motion."""
         ranges = write_person(self.path("person.obj"), self.path("person.bvh"))
         done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "-o", self.path("person.sbf"))
         self.assertIn("limbs were rotated with their children to fit inside it, 'LeftArm', 'RightArm'", done.err)
@@ -210,7 +210,7 @@ class ComputedWeights(ProgramTest):
                          self.path("person.sbf"))
         self.assertNotIn("limbs were rotated", done.err)
 
-    def test_an_arm_turns_in_its_own_joint(self):
+    def test_an_arm_rotates_about_its_own_joint(self):
         """Not in the collarbone's, which would bring it inside as well, and not into the trunk."""
         for angle in (30, 60):
             write_person(self.path("person.obj"), self.path("person.bvh"), angle, True)
@@ -225,7 +225,7 @@ class ComputedWeights(ProgramTest):
                 hand = tuple(a - b for a, b in zip(heads[name + "Hand"], heads[name + "Arm"]))
                 self.assertLess(math.dist(hand, (side * 1.1 * math.cos(down), -1.1 * math.sin(down), 0)), 0.1)
 
-    def test_targets_that_lie_outside_do_not_count(self):
+    def test_targets_outside_the_mesh_are_ignored(self):
         """Animators pull feet and hands by bones that hang on the root: they lie in no body, and most of their length
         is outside."""
         write_person(self.path("person.obj"), self.path("person.bvh"), 0)
@@ -240,7 +240,7 @@ class ComputedWeights(ProgramTest):
         self.assertNotIn("moved by", done.err)
         self.assertEqual(self.json_of("info", self.path("person.sbf"))["gait"]["legs"], 2)
 
-    def test_feet_on_the_root_hang_on_their_legs(self):
+    def test_feet_under_the_root_are_attached_to_their_legs(self):
         """Animators move feet by hand: they hang on the root beside targets of knees, and no skin tells whose they are."""
         write_person(self.path("person.obj"), self.path("person.bvh"), 0)
         bones = Bvh(self.path("person.bvh"))
@@ -260,7 +260,7 @@ class ComputedWeights(ProgramTest):
         self.assertEqual(parents["LeftKneeTarget"], "Root")
         self.assertEqual(self.json_of("info", self.path("person.sbf"))["gait"], {"kind": "walk", "legs": 2})
 
-    def test_feet_on_the_root_hang_on_the_limbs_that_point_at_them(self):
+    def test_feet_under_the_root_are_attached_to_limbs_that_point_at_them(self):
         """A frog sits with its hind feet beside its fore legs. Some axes are turned, as importers do, those of the last bones
         are not. It is no box, which is refused after its bones were joined."""
         joints = {"Root": (None, (0, 0, 0)), "Body": ("Root", (0, 1.7, 0)), "Spare": ("Body", (0, 1.5, -0.2))}
@@ -302,7 +302,7 @@ class ComputedWeights(ProgramTest):
         for i in range(372, 444):
             self.assertEqual(weights[i], {"fore": 1})
 
-    def test_shells_and_bones_that_are_not_there(self):
+    def test_missing_shells_and_bones(self):
         for wish, word in (("hat=hand", "'hat'"), ("buttons#3=hand", "has 2 shells"), ("buttons=tail", "'tail'"),
                            ("buttons", "--shell takes"), ("buttons#0=hand", "'buttons#0'")):
             status = 2 if wish == "buttons" else 1

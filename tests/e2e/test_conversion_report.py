@@ -97,7 +97,7 @@ class Reports(ProgramTest):
         self.assertIn("lengths of springs: 1 to ", self.good("convert", path, "--springs", "surface", "-o",
                                                              self.path("b.sbf")).out)
 
-    def test_what_sections_of_a_skin_are_taken_for(self):
+    def test_softness_of_skin_sections_is_reported(self):
         calf = os.path.join(ROOT, "examples", "calf", "calf.glb")
         report = self.report(calf)
         chosen = [m for kind in ("guessed", "notes") for m in report[kind] if m["code"] == "SOFTNESS_PROPOSED"]
@@ -106,7 +106,7 @@ class Reports(ProgramTest):
         self.assertRegex(chosen[0]["message"], r"[0-9] of 22 parts of the skin are soft, with a modulus of .* kPa: .*; these move with their bones: ")
         self.assertNotIn("MATERIAL_GUESSED", {m["code"] for m in report["guessed"]})
 
-    def test_many_findings_alike_are_printed_in_a_line_and_all_reported(self):
+    def test_repeated_findings_print_one_line_and_are_all_reported(self):
         """Ten plates, each thinner than two of its elements: the first is named, and how many more there are."""
         lines = []
         for n in range(10):
@@ -131,7 +131,7 @@ class Reports(ProgramTest):
         r = self.report("--no-build", shared("armadillo", "armadillo_1k.obj"))
         self.assertEqual({m["code"] for m in r["lost"]}, {"IMPORT_MATERIALS_MISSING"})
 
-    def test_a_page_needs_nothing_but_itself(self):
+    def test_a_page_is_self_contained(self):
         self.good("convert", LIZARD + ".glb", "-o", self.path("out.sbf"), "--report", self.path("out.html"))
         page = Page(read_text(self.path("out.html")))
         self.assertEqual((page.open, page.scripts), ([], 0))
@@ -181,7 +181,7 @@ class Reports(ProgramTest):
             unasked = self.report(path, drawn=True)
             self.assertEqual([p["name"] for p in unasked["pictures"]], ["skin", "sections", "lattice"])
 
-    def test_wrong_calls_leave_nothing(self):
+    def test_wrong_calls_give_no_output(self):
         for arguments in (("--report", self.path("out.txt")), ("--report", self.path("no folder/out.html"))):
             with self.subTest(arguments):
                 self.fails(2, "convert", LIZARD + ".glb", "-o", self.path("out.sbf"), *arguments, environment=NO_EGL)
@@ -189,7 +189,7 @@ class Reports(ProgramTest):
         self.fails(2, "convert", LIZARD + ".glb", LIZARD + ".obj", "--out-dir", self.folder, "--report",
                    self.path("out.html"))
 
-    def test_a_failed_conversion_leaves_the_old_report(self):
+    def test_a_failed_conversion_keeps_the_old_report(self):
         old = write_bytes(self.path("out.html"), b"what was there")
         self.fails(1, "convert", write_bytes(self.path("a.obj"), b""), "-o", self.path("out.sbf"), "--report", old)
         self.assertEqual(read_bytes(old), b"what was there")

@@ -29,10 +29,10 @@ class Derived(ProgramTest):
         self.assertEqual(count, 1)
         return write_bytes(self.path("changed.sbf"), text.encode())
 
-    def test_the_hash_is_that_of_the_specification(self):
+    def test_the_hash_follows_the_specification(self):
         self.assertEqual(stated_hash(self.file), source_hash(self.file))
 
-    def test_what_a_build_reads_is_enough_for_it(self):
+    def test_a_build_needs_only_the_parts_it_reads(self):
         # Slots for materials are no part of it, so what names them has to go for the rest to be a file.
         text = re.sub(r" *<polygon_materials>[^<]*</polygon_materials>\n", "", source_text(self.file))
         source, built = write_bytes(self.path("source.sbf"), text.encode()), self.path("built.sbf")
@@ -52,7 +52,7 @@ class Derived(ProgramTest):
                                      (r"(<polygon_mesh target=\"surface\">\s*<positions>\s*)", r"\g<1>-")):
             self.assertIn("DERIVED_STALE", self.codes_of(self.changed(pattern, replacement)), pattern)
 
-    def test_what_a_build_does_not_read_may_change(self):
+    def test_parts_that_a_build_does_not_read_may_change(self):
         for pattern, replacement in ((r'<asset title="', '<asset title="another '),
                                      (r'step_height="[^"]*"', 'step_height="0.0625"'),
                                      (r'roughness="[^"]*"', 'roughness="0.0625"')):
@@ -112,7 +112,7 @@ class Derived(ProgramTest):
         for name in re.findall(r"^\| (\w+) \| [0-9]", read_text(os.path.join(ROOT, "docs", "materials.md")), re.M):
             self.assertIn(name, listed)
 
-    def test_sections_with_levels_are_built_anew_as_they_were(self):
+    def test_rebuilt_sections_keep_their_levels(self):
         fox = shared("fox/fox.glb")
         if not os.path.exists(fox):
             self.skipTest("no shared data")

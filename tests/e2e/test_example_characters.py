@@ -12,7 +12,7 @@ from bundle_file import Bundle
 from motion_files import PointCache, read_poses, rotated
 from sbfmt_program import PROGRAM, ROOT, ProgramTest, main
 
-# legs; what is allowed at half a leg length a second: change of a knee's speed (degrees), slip (m)
+# legs; limits at half a leg length a second: change of a knee's speed (degrees), slip (m)
 WALKERS = {"pup": (4, 5, 0.0015), "yeti": (2, 5, 0.001), "spider": (8, 5, 0.002), "caterpillar": (14, 12, 0.0005)}
 # kind of gait, bones of the wave from the head to the tail, driven as fast as `walk_speed`
 WAVES = {"snake": ("slither", 19), "koi": ("swim", 9), "dragon": ("swim", 18)}
@@ -167,7 +167,7 @@ class Characters(ProgramTest):
             self.assertGreater(max(heights[i - 20:i + 1]), 1.15 * heights[0])
             self.assertGreater(max(ups[i - 20:i]), 0.145)
 
-    def test_they_walk_within_the_figures_on_flat_ground(self):
+    def test_walks_on_flat_ground_stay_within_the_figures(self):
         for name, (_, knee, slip) in WALKERS.items():
             path = self.bundle(name)
             leg = self.json_of("run", path, "--seconds", "0")["leg_length"]

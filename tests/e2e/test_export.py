@@ -20,7 +20,7 @@ class Dialect2012(ProgramTest):
         self.good("convert", write_bytes(self.path("in.xml"), text.encode()), "-o", self.path("out.sbf"), *options)
         return ElementTree.parse(self.path("out.sbf")).getroot()
 
-    def test_values_go_round(self):
+    def test_values_round_trip(self):
         for options in ((), ("--no-build",)):
             for ending in ("sbf", "sbfz"):
                 path = self.path("bar." + ending)
@@ -59,7 +59,7 @@ class Dialect2012(ProgramTest):
         self.assertAlmostEqual(float(limits["swing"].get("max")), 0.6108652381980153, delta=1e-7)
         self.assertAlmostEqual(float(limits["twist"].get("min")), -0.2181661564992912, delta=1e-7)
 
-    def test_every_angle_and_kind_of_joint_goes_round(self):
+    def test_every_angle_and_kind_of_joint_round_trips(self):
         text = read_text(BAR)
         kinds = ("prismatic", "revolute", "cylindrical", "spherical", "point_on_line", "point_in_plane", "distance",
                  "pulley", "fixed", "six_dof")
@@ -105,7 +105,7 @@ class Dialect2012(ProgramTest):
 
 
 class Forms(ProgramTest):
-    def test_obj_goes_round(self):
+    def test_obj_round_trips(self):
         source = example(self.class_folder.name)
         result = self.good("export", source, "-o", self.path("a.obj"))
         self.assertIn("bones: ", result.err)
@@ -121,21 +121,21 @@ class Forms(ProgramTest):
         self.assertIn("mtllib a.mtl", read_text(self.path("a.obj")))
         self.assertEqual(read_text(self.path("a.mtl")).count("newmtl"), 9)
 
-    def test_materials_do_not_stay_without_their_meshes(self):
+    def test_a_failed_obj_leaves_no_material_library(self):
         source = example(self.class_folder.name)
         result = call_limited(4096, "export", source, "-o", self.path("a.obj"))
         self.assertEqual(result.status, 2)
         self.assertIn("a.obj: cannot write the file", result.err)
         self.assert_empty_folder()
 
-    def test_tet_goes_round(self):
+    def test_tet_round_trips(self):
         self.good("convert", BAR, "-o", self.path("a.sbf"))
         self.good("export", self.path("a.sbf"), "-o", self.path("a.tet"))
         self.good("convert", self.path("a.tet"), "-o", self.path("b.sbf"))
         self.good("export", self.path("b.sbf"), "-o", self.path("b.tet"))
         self.assertEqual(read_bytes(self.path("b.tet")), read_bytes(self.path("a.tet")))
 
-    def test_other_tetrahedra_go_round(self):
+    def test_other_tetrahedra_round_trip(self):
         self.good("convert", BAR, "-o", self.path("a.sbf"))
         before = self.json_of("info", self.path("a.sbf"))
         self.good("export", self.path("a.sbf"), "-o", self.path("a.tet"))

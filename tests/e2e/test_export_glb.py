@@ -95,7 +95,7 @@ class Motion(ProgramTest):
         self.assertGreater(minimum, 0.01, "nothing moved")
 
     @play_files.needs_node
-    def test_the_validator_finds_nothing_to_warn_of(self):
+    def test_the_validator_gives_no_warnings(self):
         for name, bundle in self.bundles.items():
             out = self.moved(name)[0]
             for path, options in ((out, None), (self.path("rest.glb"), ()),
@@ -132,7 +132,7 @@ class Motion(ProgramTest):
                 self.assertEqual(mesh["keys"], 30 * SECONDS + 1)
             self.assert_plays(shown["meshes"], rest, now)
 
-    def test_what_squashes_is_squashed(self):
+    def test_squash_is_exported_as_targets(self):
         """Pressed as it lands: in the targets, for the joints alone leave it as broad as it was."""
         out, rest, now = self.moved("pudding")
         glb = Glb(out)
@@ -144,7 +144,7 @@ class Motion(ProgramTest):
         self.assertAlmostEqual(widths[2], widths[0], delta=1e-3 * widths[0])
         self.assertAlmostEqual(widths[3], widths[1], delta=NEAR_M)
 
-    def test_normals_of_targets_turn_with_the_soft_body(self):
+    def test_normals_of_targets_rotate_with_the_soft_body(self):
         """A normal keeps its angle to the faces around it that share it: triangles here, so the sums of their area vectors tell."""
         glb, sums, rows_of, turned = Glb(self.moved("pup")[0]), ({}, {}), [], 0
         for node, primitive in glb.primitives():
@@ -200,7 +200,7 @@ class Everything(ProgramTest):
         self.left_out = self.good("export", self.source, "-o", self.path("all.glb")).err
         self.glb = Glb(self.path("all.glb"))
 
-    def test_what_is_kept(self):
+    def test_counts_and_names_are_kept(self):
         info = self.json_of("info", self.source)
         root = ElementTree.parse(self.source).getroot()
         self.assertEqual(self.glb.joint_count(), len(info["bones"]))

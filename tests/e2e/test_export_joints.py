@@ -75,7 +75,7 @@ class Joints(ProgramTest):
         self.compare_poses("drive", lambda joint: float(joint.get("springref")))
 
     @play_files.needs_node
-    def test_mjcf_at_the_least_of_each_range(self):
+    def test_mjcf_at_the_minimum_of_each_range(self):
         self.compare_poses("min", lambda joint: numbers(joint.get("range", joint.get("springref")))[0])
 
     @play_files.needs_node

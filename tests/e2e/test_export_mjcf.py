@@ -36,7 +36,7 @@ def numbers(node, name):
 
 class Mjcf(ProgramTest):
     def exported(self, path):
-        """The document's root after what holds for every one."""
+        """The document's root, after checks that every document passes."""
         self.said = self.good("export", path, "-o", self.path("out.mjcf")).err
         root = ElementTree.fromstring(read_text(self.path("out.mjcf")))
         self.assertEqual(root.tag, "mujoco")
@@ -146,8 +146,8 @@ class Mjcf(ProgramTest):
             self.assertLess(reported["falls"], 1.2, name)
 
     @play_files.needs_node
-    def test_mujoco_lets_touch_what_may(self):
-        """Two soft boxes on a hull touch, and it the lower one; what lies in one of them does not, nor what layers part."""
+    def test_mujoco_allows_the_same_contacts(self):
+        """Two soft boxes on a hull collide, and the lower one with the hull; an object inside one of them does not, nor do boxes on separate layers."""
         with open(self.path("boxes.obj"), "w", encoding="ascii") as file:
             for i, name in enumerate(("low", "high")):
                 at = 0.22 * i
@@ -168,7 +168,7 @@ class Mjcf(ProgramTest):
             self.assertEqual((reported["warnings"], reported["finite"], reported["pairs"]), (0, True, want))
             self.assertLess(reported["fastest"], 0.9)  # they begin 0.02 m apart, which their radii are in sum
 
-    def test_hulls_that_lie_in_each_other(self):
+    def test_overlapping_hulls(self):
         """The first and second of three do at rest, the second and third only touch; the fourth is beside all, on another layer."""
         places = [(0, "a", ""), (0.15, "b", ""), (0.35, "c", ""), (0.6, "d", ' layer="2" mask="2"')]
         bodies = "".join(hull(name, (x, 0, 0), (x + 0.2, 0.2, 0.2)).replace('motion="kinematic"', f'motion="dynamic" mass="1"{more}')
@@ -245,7 +245,7 @@ class Mjcf(ProgramTest):
         free = [body for body in root.find("worldbody").findall("body") if len(body.findall("joint")) == 3
                 and body.find("joint").get("type") == "slide"]
         self.assertEqual(len(free) + info["pins"], len(flex.get("body").split()))
-        # A quarter of each tetrahedron's mass is a corner's; what is held has none of its own.
+        # A quarter of each tetrahedron's mass belongs to a corner; pinned points have no mass of their own.
         mass, names = 0, {body.get("name") for body in free}
         vertices, points = self.vertices(root, flex), [int(word) for word in flex.get("element").split()]
         for i in range(0, len(points), 4):

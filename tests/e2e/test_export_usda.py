@@ -43,7 +43,7 @@ def flat(value):
 
 class Usda(ProgramTest):
     def exported(self, path, *options):
-        """The prims after what holds for every file, and what `info` says of the source."""
+        """The prims, after checks that every file passes, and the source's `info`."""
         out = self.path("out.usda")
         self.said = self.good("export", path, "-o", out, *options).err
         layer, self.prims = usda_files.read(out)
@@ -181,7 +181,7 @@ class Usda(ProgramTest):
         self.assertIn("neither lattices nor sheets of springs: 22", self.said)
         self.assertIn("gaits: 1", self.said)
 
-    def test_what_the_sample_of_everything_keeps(self):
+    def test_parts_kept_of_the_complete_sample(self):
         info = self.exported(EVERYTHING)
         self.check_counts(info)
         self.check_skeleton()
@@ -201,7 +201,7 @@ class Usda(ProgramTest):
         self.exported(EVERYTHING, "--render-level", "1")
         self.assertLess(len(self.prims["/asset/character/meshes/coat"].values["faceVertexCounts"]), full)
 
-    def test_ids_that_are_no_names(self):
+    def test_ids_that_are_invalid_names(self):
         text = read_text(FIGURE)
         for name, odd in (("chest", "a.b"), ("head", "a_b"), ("pelvis", "1-a"), ("left_thigh", "a__0")):
             text = text.replace(f'"{name}"', f'"{odd}"')
@@ -211,7 +211,7 @@ class Usda(ProgramTest):
             self.assertIn("/asset/rigid/" + name, self.prims)
 
     @play_files.needs_node
-    def test_others_read_the_same(self):
+    def test_other_readers_read_the_same(self):
         self.good("convert", BAR, "-o", self.path("bar.sbf"))
         self.good("build", FIGURE, "-o", self.path("figure.sbf"))
         for path in (EVERYTHING, self.path("bar.sbf"), self.path("figure.sbf"), example(self.class_folder.name)):

@@ -46,7 +46,7 @@ class Gait(ProgramTest):
         self.assertGreater(fast, slow)
         self.assertGreater(fastest, fast)
 
-    def test_many_legs_driven_faster_go_no_slower(self):
+    def test_many_legs_driven_faster_are_not_slower(self):
         for name in ("spider", "caterpillar"):
             with self.subTest(name):
                 self.faster_is_farther(ROOT, "examples", name, name + ".glb")
@@ -57,7 +57,7 @@ class Gait(ProgramTest):
             self.skipTest("shared/zoo is not there")
         self.faster_is_farther(*spider)
 
-    def test_slow_feet_stand_most_of_the_time(self):
+    def test_slow_feet_are_mainly_planted(self):
         report = measure(self.file, self.walks["flat, 0.1"], self.leg)
         for leg in report["rhythm"].values():
             self.assertGreaterEqual(leg["duty"], 0.75)

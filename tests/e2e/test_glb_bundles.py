@@ -44,21 +44,21 @@ class GlbBundles(ProgramTest):
         self.assertEqual(read_bytes(again), read_bytes(packed), bundle)
         return packed
 
-    def test_it_goes_round_with_the_same_bytes(self):
+    def test_it_round_trips_to_the_same_bytes(self):
         self.assert_goes_round(self.xml)
         self.good("pack", self.xml, "-o", self.path("stored.glb"), "--store")
         self.good("unpack", self.path("stored.glb"), "-o", self.path("stored.sbf"))
         self.assertEqual(read_bytes(self.path("stored.sbf")), read_bytes(self.xml))
         self.good("diff", self.xml, self.glb)
 
-    def test_every_sample_goes_round(self):
+    def test_every_sample_round_trips(self):
         shutil.copytree(os.path.join(VALID, "textures"), self.path("textures"))
         for sample in sorted(glob.glob(os.path.join(VALID, "*.sbf"))):
             canonical = self.path(os.path.basename(sample))
             self.good("unpack", sample, "-o", canonical)
             self.assert_goes_round(canonical)
 
-    def test_strangers_go_round(self):
+    def test_files_of_other_programs_round_trip(self):
         zoo = sorted(glob.glob(os.path.join(shared(os.pardir, "zoo"), "*", "*.glb")))
         if not zoo:
             self.skipTest("no shared data")
@@ -165,7 +165,7 @@ class GlbBundles(ProgramTest):
         write_bytes(changed, glb_of(document, glb.binary))
         return packed, changed
 
-    def test_renumbered_parts_are_found_and_written_anew(self):
+    def test_renumbered_parts_are_found_and_rewritten(self):
         for bundle in (self.xml, os.path.join(VALID, "everything.sbf")):
             packed, changed = self.renumbered(bundle)
             printed = self.fails(1, "validate", changed)

@@ -32,7 +32,7 @@ class InfoFigures(ProgramTest):
         """Bytes of the file that `info` says it has read."""
         return int(re.search(r"(\d+) of them read", self.good("info", path).out).group(1))
 
-    def test_of_a_large_file_little_is_read(self):
+    def test_large_files_are_read_in_part(self):
         source, packed, text = self.path("tube.obj"), self.path("tube.sbfz"), self.path("tube.sbf")
         with open(source, "w", encoding="ascii") as stream:
             stream.write(tube(300, 180))
@@ -46,7 +46,7 @@ class InfoFigures(ProgramTest):
             if key != "bytes":
                 self.assertEqual(here[key], there[key], key)
 
-    def test_nor_of_one_that_was_never_built(self):
+    def test_large_unbuilt_files_are_read_in_part(self):
         source, packed, text = self.path("tube.obj"), self.path("source.sbfz"), self.path("source.sbf")
         with open(source, "w", encoding="ascii") as stream:
             stream.write(tube(400, 240))
@@ -72,7 +72,7 @@ class InfoFigures(ProgramTest):
             if key != "bytes":
                 self.assertEqual(here[key], there[key], key)
 
-    def test_where_nobody_states_them_all_is_read(self):
+    def test_files_without_figures_are_read_whole(self):
         source, text, packed = self.path("tube.obj"), self.path("source.sbf"), self.path("unstated.sbfz")
         with open(source, "w", encoding="ascii") as stream:
             stream.write(tube(400, 240))

@@ -26,7 +26,7 @@ class KindsOfGait(ProgramTest):
     def run_of(self, kind, drive, *more):
         return self.json_of("run", self.file(kind), "--seconds", "6", "--drive", drive, *more)
 
-    def test_each_goes_as_far_as_it_is_driven(self):
+    def test_each_kind_travels_the_driven_distance(self):
         for kind in KINDS:
             with self.subTest(kind):
                 report = self.run_of(kind, "1,0.2")
@@ -37,7 +37,7 @@ class KindsOfGait(ProgramTest):
                     self.assertGreater(report["distance"], 0.8 * 6)
                     self.assertLess(report["distance"], 1.05 * 6)
 
-    def test_what_swims_or_flies_rises(self):
+    def test_swimmers_and_flyers_rise(self):
         def end_of(kind, drive):
             self.run_of(kind, drive, "--pose", self.path("pose.csv"))
             with open(self.path("pose.csv"), encoding="utf-8") as poses:

@@ -96,10 +96,10 @@ class ObjAndRig(ProgramTest):
         self.assertEqual(sum(s["vertices"] for s in sections.values()), 525)
         self.assertEqual(sum(s["polygons"] for s in sections.values()), 489)
 
-    def test_sections_hang_on_the_bones_of_their_nodes(self):
+    def test_sections_are_attached_to_the_bones_of_their_nodes(self):
         self.assertEqual({s["name"]: s["bone"] for s in self.info["sections"]}, BONE_OF_SECTION)
 
-    def test_places_and_polygons_are_kept_in_source_order(self):
+    def test_positions_and_polygons_are_kept_in_source_order(self):
         sizes = []
         for body in self.tree.findall("soft_body"):
             positions, polygons = self.obj[body.get("name")]
@@ -203,7 +203,7 @@ class ObjAndRig(ProgramTest):
         self.good("build", self.file, "-o", again)
         self.assertEqual(read_bytes(again), read_bytes(self.file))
 
-    def test_what_is_not_built_has_no_derived_part(self):
+    def test_unbuilt_files_have_no_derived_parts(self):
         plain, built = self.path("plain.sbf"), self.path("built.sbf")
         self.good("convert", shared("lizard", "liz.obj"), "--rig", shared("lizard", "liz.fbx"), "--no-build", "-o",
                   plain)
@@ -268,7 +268,7 @@ class Glb(ProgramTest):
         report = self.json_of("validate", self.file)
         self.assertEqual((report["valid"], report["errors"]), (True, 0), report["messages"])
 
-    def test_sections_hang_on_their_parent_nodes(self):
+    def test_sections_are_attached_to_their_parent_nodes(self):
         nodes, expected = self.document["nodes"], {}
         for parent in nodes:
             for child in parent.get("children", []):

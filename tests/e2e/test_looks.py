@@ -96,7 +96,7 @@ class Looks(ProgramTest):
                 self.assertEqual(self.drawn(file)[0], in_order(seen, GREEN, BLUE, YELLOW))
                 self.assertEqual(self.exported(file).json["materials"][0]["alphaMode"], mode)
 
-    def test_the_cutoff_decides_what_a_mask_keeps(self):
+    def test_the_cutoff_masks_pixels(self):
         for cutoff, seen in ((0.1, RED), (0.9, BLUE)):
             panel = Panel()
             image = panel.image(png_of_quarters((128, 255, 255, 255)))
@@ -158,7 +158,7 @@ class Looks(ProgramTest):
             found[name] = hues[at[1] >= 0.5][at[0] >= 0.5]
         return found
 
-    def test_the_set_of_coordinates_that_the_image_names(self):
+    def test_images_use_their_uv_set(self):
         panel = Panel()
         panel.add("panel", material(texture=panel.image(png_of_quarters())), coordinates=((0, 0),) * 4)
         made = panel.file
@@ -182,7 +182,7 @@ class Looks(ProgramTest):
                 image = self.exported(file).json["images"][0]
                 self.assertEqual(image["mimeType"], "image/webp" if "webp" in name else "image/jpeg")
 
-    def test_obj_places_its_image(self):
+    def test_obj_maps_its_image(self):
         """-s and -o of a map: the lower right quarter, counted upwards."""
         folder = self.folder
         source = textured_box.write(folder, png_of_quarters())

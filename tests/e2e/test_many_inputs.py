@@ -1,4 +1,4 @@
-"""Calls on several files: the exit status is the worst of all, in whatever order they are named, and each good one is done."""
+"""Calls on several files: the exit status is the worst of all, in any order, and each good file is processed."""
 
 import itertools
 import os
@@ -25,7 +25,7 @@ f 4 1 5 8
 
 class ManyInputs(ProgramTest):
     def expect_worst(self, files, verb, *options):
-        """`files` by name: the status of each alone is that of the call on all of them, where it is the greatest."""
+        """`files` by name: the call on all returns the greatest status of the calls on each."""
         alone = {name: call(verb, path, *options).status for name, path in files.items()}
         self.assertEqual(alone, {"good": 0, "faulty": 1, "absent": 2})
         for count in (2, 3):
@@ -47,7 +47,7 @@ class ManyInputs(ProgramTest):
             report = self.json_of("validate", faulty, good, "--threads", threads, status=1)
             self.assertEqual((report["valid"], [one["valid"] for one in report["files"]]), (False, [False, True]))
 
-    def test_one_output_takes_one_input(self):
+    def test_one_output_needs_one_input(self):
         good = write_bytes(self.path("cube.obj"), CUBE.encode())
         other = write_bytes(self.path("other.obj"), CUBE.encode())
         printed = self.fails(2, "convert", good, other, "--no-build", "-o", self.path("out.sbf"))
@@ -65,7 +65,7 @@ class ManyInputs(ProgramTest):
             for name in made:
                 os.remove(os.path.join(out, name))
 
-    def test_unchanged_inputs_are_left_out(self):
+    def test_unchanged_inputs_are_skipped(self):
         out = self.path("out")
         inputs = [write_bytes(self.path(name + ".obj"), CUBE.encode()) for name in ("a", "b", "c")]
 
@@ -83,7 +83,7 @@ class ManyInputs(ProgramTest):
         self.assertEqual(unchanged("--unit", "2"), 3)
         write_bytes(inputs[1], CUBE.replace("0.2", "0.3").encode())
         self.assertEqual(unchanged("--unit", "2"), 2)
-        write_bytes(self.path("c.mtl"), b"newmtl m\n")  # what lies beside it counts
+        write_bytes(self.path("c.mtl"), b"newmtl m\n")  # files beside it count
         self.assertEqual(unchanged("--unit", "2"), 2)
         os.remove(os.path.join(out, "a.sbf"))
         self.assertEqual(unchanged("--unit", "2"), 2)

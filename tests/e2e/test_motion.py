@@ -38,7 +38,7 @@ class MotionCapture(ProgramTest):
         bundle = Bundle(self.path("source.sbf"))
         return bundle, bundle.tracks(bundle.clips[0])
 
-    def test_onto_itself_the_motion_is_the_same(self):
+    def test_motion_retargeted_to_its_own_skeleton_is_unchanged(self):
         bundle, tracks, said = self.moved(CMU)
         own = bundle.tracks(bundle.clips[0])
         self.assertNotIn("UNMATCHED", said)
@@ -154,7 +154,7 @@ class NamedChains(ProgramTest):
                 a, b = self.at(moved, recorded, name, other)
                 self.assertGreater(dot(direction(a), direction(b)), 1 - 1e-4, name)
 
-    def test_feet_that_stand_still_stand(self):
+    def test_planted_feet_stay_planted(self):
         ours, theirs = Bundle(self.yeti), Bundle(self.recorded)
         tracks, own, names = ours.tracks(ours.clips[-1]), theirs.tracks(theirs.clips[0]), theirs.bone_names()
         tick, stood = Bvh(CMU).frame_time, 0
@@ -194,7 +194,7 @@ class NamedChains(ProgramTest):
 class Calls(ProgramTest):
     LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
 
-    def test_wrong_files_leave_nothing(self):
+    def test_wrong_files_give_no_output(self):
         self.fails(2, "convert", self.LIZARD, "--motion", self.path("absent.bvh"), "-o", self.path("out.sbf"))
         message = self.fails(1, "convert", os.path.join(ROOT, "examples", "lizard", "lizard.obj"), "--motion",
                              self.LIZARD, "-o", self.path("out.sbf"))

@@ -96,8 +96,8 @@ class Strength(ProgramTest):
             heights = self.heights("--ragdoll", "--gravity", gravity)
             self.assertGreater(sign * (heights[12] - heights[0]), 1e-3, gravity)
 
-    def test_more_strength_holds_better(self):
-        """From 1 on a limb is held level by definition; without a bound as well; weaker ones sink the more, as without any."""
+    def test_stronger_drives_follow_the_pose_better(self):
+        """From 1 on, and without a bound, a limb stays level by definition; the weaker the drive, the more the limb sinks."""
         limp, weak, enough, unbounded = (self.sag(*options) for options in (
             ("--ragdoll",), ("--strength", "0.3"), ("--strength", "4"), ("--strength", "0")))
         self.assertGreater(limp, 0.05)
@@ -106,7 +106,7 @@ class Strength(ProgramTest):
         self.assertLess(enough, 0.02)
         self.assertLess(unbounded, 0.02)
 
-    def test_it_takes_a_number_that_is_not_negative(self):
+    def test_negative_numbers_are_refused(self):
         write_bytes(self.path("a.sbf"), joint_files.document().encode())
         for value in ("-1", "strong"):
             self.assertIn("--strength", self.fails(2, "run", self.path("a.sbf"), "--strength", value))

@@ -73,14 +73,14 @@ class Played(ProgramTest):
 
     @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
     def test_a_spider_that_is_thrown_about(self):
-        """Legs swing at 40 rad/s, and feet are 2.4 m farther within a tick: what the legs are made of goes along."""
+        """Legs swing at 40 rad/s, and feet move 2.4 m within a tick: the legs' soft bodies follow."""
         path = convert_once(self.class_folder.name, "spider.sbf", shared("spider", "spider.glb"))
         for clip in range(5):
             report = self.json_of("run", path, "--clip", str(clip), "--seconds", "3")
             self.assertTrue(report["valid"], clip)
             self.assertGreater(report["volume_ratio_least"], 0.6, clip)
 
-    def test_names_numbers_and_none(self):
+    def test_a_missing_clip_is_refused(self):
         path = convert_once(self.class_folder.name, "lizard.sbf", LIZARD)
         self.assertIn("no clip 'Walk': the file has none", self.fails(2, "run", path, "--clip", "Walk"))
 

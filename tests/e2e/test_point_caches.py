@@ -35,7 +35,7 @@ class Caches(ProgramTest):
         numbers = 3 * count * samples
         return (struct.unpack_from(f"<{numbers}f", pc2, 32), struct.unpack_from(f">{numbers}f", mdd, 8 + 4 * samples), count)
 
-    def test_both_hold_the_same(self):
+    def test_both_formats_have_the_same_samples(self):
         for of in ("skin", "surface"):
             pc2, mdd, count = self.samples(of)
             self.assertGreater(count, 100)

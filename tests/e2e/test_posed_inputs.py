@@ -15,7 +15,7 @@ POSES = dict(posed_inputs.POSES)
 
 class PosedInputs(ProgramTest):
     def pose(self, name, change=lambda obj: obj, path=None):
-        """The example in its pose as an OBJ of other unit and axes, the truth, and what is said of the conversion. `path`:
+        """The example in its pose as an OBJ of other unit and axes, the expected result, and the messages of the conversion. `path`:
         a changed file of the example."""
         original = Original(path or posed_inputs.path_of(name), self.folder)
         obj, motions = posed_inputs.pose_of(original, POSES[name])
@@ -87,7 +87,7 @@ class PosedInputs(ProgramTest):
                 self.assertNotIn("RIG_OTHER_MESH", printed)
                 self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), motions), 0.022, name)
 
-    def test_bones_saved_in_mid_stride_stand_alike_on_both_sides_of_a_symmetric_input(self):
+    def test_bones_saved_in_mid_stride_fit_a_symmetric_input_on_both_sides(self):
         original = Original(posed_inputs.path_of("examples/calf/calf.glb"), self.folder)
         turns = {name + side: (sign * math.sin(0.2), 0, 0, math.cos(0.2)) for side, sign in ((".L", 1), (".R", -1))
                  for name in ("fore_upper", "hind_upper")}
@@ -102,7 +102,7 @@ class PosedInputs(ProgramTest):
         still = dict.fromkeys(places, matrix_of())
         self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), still), 0.012)
 
-    def test_bones_alone_in_the_pose_of_the_input_stay(self):
+    def test_bones_alone_in_the_pose_of_the_input_are_unchanged(self):
         for name in ("examples/yeti/yeti.glb", "examples/calf/calf.glb"):
             call, original, _, motions = self.convert_bones(name, {})
             self.assertNotIn("has another pose", self.good(*call).err)
@@ -118,14 +118,14 @@ class PosedInputs(ProgramTest):
         call, *_ = self.convert_bones("examples/calf/calf.glb", turns, lambda obj: obj, "--weights", "compute")
         self.assertIn("after its limbs were rotated", self.good(*call).err)
 
-    def test_bones_of_another_body_name_what_no_bone_is_near(self):
+    def test_bones_of_another_body_report_parts_without_a_near_bone(self):
         """Two legs and arms turned into a pup lie inside, and its head and trunk have no bones."""
         original = Original(posed_inputs.path_of("examples/pup/pup.glb"), self.folder)
         printed = self.fails(1, "convert", original.obj_path, "--rig", posed_inputs.path_of("examples/yeti/yeti.glb"), "-o", self.path("out.sbf"))
         self.assertRegex(printed, r"another pose or body than the mesh.* few bones, but \d\d % of the mesh has none near; "
                                r"use this character's rig, or use --weights compute \[IMPORT_RIG_OUTSIDE\]")
 
-    def test_an_input_in_the_pose_of_the_rig_turns_nothing(self):
+    def test_an_input_in_the_pose_of_the_rig_rotates_no_bone(self):
         original = Original(posed_inputs.path_of("examples/yeti/yeti.glb"), self.folder)
         for change in (variants.jiggled, variants.simplified):
             variants.write(change(original.obj), self.path("in.obj"))

@@ -17,7 +17,7 @@ class Profile(ProgramTest):
         result = call("convert", os.path.join(ROOT, "examples", "pup", "pup.glb"), "-o", cls.file)
         assert result.status == 0, result.err
 
-    def test_stages_make_up_the_tick(self):
+    def test_stage_times_add_up_to_the_tick(self):
         plain = self.json_of("run", self.file, "--seconds", SECONDS)
         timed = self.json_of("run", self.file, "--seconds", SECONDS, "--profile")
         self.assertEqual(timed["state_hash"], plain["state_hash"])
@@ -36,7 +36,7 @@ class Profile(ProgramTest):
         self.assertGreater(counters["element_visits"], TICKS)
         self.assertGreater(counters["memory_bytes"], counters["state_bytes"])
 
-    def test_a_trace_holds_every_stage_of_every_tick_in_order(self):
+    def test_a_trace_has_every_stage_of_every_tick_in_order(self):
         trace = self.path("trace.json")
         self.good("run", self.file, "--seconds", SECONDS, "--trace", trace)
         events = [event for event in json.loads(read_text(trace))["traceEvents"] if event["ph"] == "X"]

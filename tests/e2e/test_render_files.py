@@ -107,12 +107,12 @@ class Render(ProgramTest):
     def test_a_picture_shows_something(self):
         self.assertGreater(len(colours(self.draw("a.png", *SMALL))), 500)
 
-    def test_what_is_shown_changes_the_picture(self):
+    def test_display_options_change_the_picture(self):
         pictures = {show: self.draw("a.png", *SMALL, "--show", show)
                     for show in ("surface", "springs", "surface,springs", "bones", "hulls", "strain", "surface,joints", "surface,bounds")}
         self.assertEqual(len(set(pictures.values())), len(pictures))
 
-    def test_hulls_without_bones_go_with_their_character(self):
+    def test_hulls_without_bones_follow_their_character(self):
         """A figure is as large in a picture with the hulls of its bodies two metres up as on the ground: they lie in it."""
         figure, shares = self.path("figure.sbfz"), []
         self.good("build", ROOT + "/examples/bones/figure.sbf", "-o", figure, "--elements", "300")
@@ -215,7 +215,7 @@ class Render(ProgramTest):
                 self.assertRegex(printed, f"warning: the image 'red.png' is not drawn.*{reason}.*IMAGE_NOT_DRAWN")
                 self.assertRegex(caption, f"The image 'red.png' is not drawn.*{reason}")
 
-    def test_it_is_seen_from_where_one_likes(self):
+    def test_camera_options_change_the_view(self):
         usual, same, above = (self.draw("a.png", *SMALL, "--view", view) for view in ("41.25,14.9", "41.25,14.9", "200,70"))
         self.assertEqual(usual, same)
         self.assertNotEqual(usual, above)
@@ -226,7 +226,7 @@ class Render(ProgramTest):
         self.assertEqual(data[4:8], b"ftyp")
         self.assertIn(b"moov", data)
 
-    def test_calls_that_are_wrong_leave_nothing(self):
+    def test_wrong_calls_give_no_output(self):
         for arguments in (("-o", self.path("a.bmp")), (), ("-o", self.path("a.png"), "--show", "hair"),
                           ("-o", self.path("a.png"), "--size", "0x0"), ("-o", self.path("a.png"), "--size", "wide"),
                           ("-o", self.path("a.png"), "--view", "30"), ("-o", self.path("a.png"), "--view", "0,90"),

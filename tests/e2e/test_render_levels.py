@@ -28,7 +28,7 @@ class RenderLevels(ProgramTest):
         self.good("build", source or self.plain, "-o", out, *options)
         return out
 
-    def test_none_without_the_option(self):
+    def test_no_levels_without_the_option(self):
         self.assertTrue(all(mesh["levels"] == [] for mesh in self.meshes(self.plain)))
 
     def test_reported_halves(self):
@@ -42,7 +42,7 @@ class RenderLevels(ProgramTest):
                 before = level["triangles"]
         self.good("validate", self.path("built.sbf"))
 
-    def test_levels_are_made_anew_from_the_same_source(self):
+    def test_rebuilt_levels_of_the_same_source_are_equal(self):
         once = self.built("--render-levels", "2")
         self.good("build", once, "-o", self.path("again.sbf"), "--render-levels", "2")
         self.assertEqual(read_bytes(once), read_bytes(self.path("again.sbf")))

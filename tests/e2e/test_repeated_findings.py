@@ -52,7 +52,7 @@ class RepeatedFindings(ProgramTest):
         self.assertEqual(len(lines_with(err, "SURFACE_OPEN")), 2)
         self.assertNotIn(MORE, err)
 
-    def test_errors_are_never_folded(self):
+    def test_errors_are_never_merged(self):
         textures = "".join(f'<texture id="t{i}" path="/elsewhere{i}.png"/>' for i in range(BODIES))
         path = write_bytes(self.path("bad.sbf"), f'<sbf version="1.0"><textures>{textures}</textures></sbf>'.encode())
         err = self.fails(1, "validate", path)
@@ -68,12 +68,12 @@ class RepeatedFindings(ProgramTest):
         self.assertEqual(first, lines_with(full, "LATTICE_THIN")[0])
         self.assertEqual(count, f"sbfmt convert: warning: {BODIES - 1} {MORE} [LATTICE_THIN]")
 
-    def test_what_differs_in_more_than_names_is_printed(self):
+    def test_findings_that_differ_in_more_than_names_are_printed(self):
         err = self.good("export", os.path.join(ROOT, "spec", "samples", "valid", "everything.sbf"), "-o", self.path("out.usda")).err
         self.assertGreater(len(lines_with(err, "EXPORT_LEFT_OUT")), 2)
         self.assertNotIn(MORE, err)
 
-    def test_every_verb_takes_it(self):
+    def test_every_verb_accepts_the_option(self):
         self.assertIn("--verbose", self.good("pack", "--help").out)
         self.good("pack", "--verbose", self.bundle(1), "-o", self.path("one.sbfz"))
 

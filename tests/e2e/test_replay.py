@@ -43,12 +43,12 @@ class Replay(ProgramTest):
         printed = self.fails(1, "run", self.file, "--replay", self.tape, "--raise", "3")
         self.assertIn("begins in another state", printed)
 
-    def test_options_that_make_the_world_are_given_again(self):
+    def test_options_that_change_the_world_must_be_repeated(self):
         self.record("--hold")
         self.assertTrue(self.json_of("run", self.file, "--replay", self.tape, "--hold")["replay_same"])
         self.assertIn("another state", self.fails(1, "run", self.file, "--replay", self.tape))
 
-    def test_what_is_cut_off_plays_as_far_as_it_goes(self):
+    def test_truncated_recordings_play_to_their_end(self):
         self.record()
         whole = read_bytes(self.tape)
         write_bytes(self.tape, whole[: len(whole) // 2 + 5])
@@ -68,7 +68,7 @@ class Replay(ProgramTest):
         nowhere = os.path.join(self.path("no"), "x.sbrec")
         self.assertIn("cannot be written", self.fails(2, "run", self.file, "--record", nowhere))
 
-    def test_half_a_recording_does_not_stay(self):
+    def test_incomplete_recordings_are_removed(self):
         result = call_limited(512, "run", self.file, "--seconds", "1", "--drive", "0.3,0.1", "--record", self.tape)
         self.assertEqual(result.status, 2)
         self.assertIn("cannot be written", result.err)

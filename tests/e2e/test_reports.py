@@ -56,7 +56,7 @@ def known_codes():
 
 
 class Reports(ProgramTest):
-    def test_each_sample_gives_the_report_beside_it(self):
+    def test_each_sample_gives_its_expected_report(self):
         self.assertGreater(len(SAMPLES), 200)
         for sample in SAMPLES:
             with self.subTest(os.path.basename(sample)):
@@ -82,7 +82,7 @@ class Reports(ProgramTest):
         self.assertGreaterEqual(len(shown), 60)
         self.assertEqual({int(known_codes()[code][1]) // 100 for code in shown}, set(range(1, 9)), "families")
 
-    def test_severity_is_that_of_the_code(self):
+    def test_severity_follows_the_code(self):
         codes = known_codes()
         for sample in SAMPLES:
             for message in json.loads(read_text(report_beside(sample)))["messages"]:
@@ -96,7 +96,7 @@ class Reports(ProgramTest):
                 found = {m["code"] for m in json.loads(read_text(report_beside(sample)))["messages"]}
                 self.assertIn(name, found)
 
-    def test_messages_say_where(self):
+    def test_messages_name_the_location(self):
         for sample in SAMPLES:
             for message in json.loads(read_text(report_beside(sample)))["messages"]:
                 self.assertTrue(message["path"] or "line" in message or "offset" in message or
@@ -113,7 +113,7 @@ class Calls(ProgramTest):
         names = [os.path.relpath(row["file"], self.folder) for row in report["files"]]
         self.assertEqual(names, ["a.sbf", "b/a.SBF", "b/deep/z.sbf", "c.sbf"])
 
-    def test_many_files_keep_their_order_whatever_the_threads(self):
+    def test_threads_do_not_change_the_order_of_files(self):
         once = call("validate", INVALID, "--threads", "1", "--format", "json")
         again = call("validate", INVALID, "--threads", "4", "--format", "json")
         self.assertEqual(once, again)
@@ -125,7 +125,7 @@ class Calls(ProgramTest):
         self.assertEqual(result.status, 1)
         self.assertIn("2 files, 1 not valid: 1 error, 1 warning, 0 notes", result.out)
 
-    def test_strict_lets_warnings_fail(self):
+    def test_strict_makes_warnings_fail(self):
         sample = os.path.join(INVALID, "surface_open.sbf")
         self.assertTrue(self.json_of("validate", sample)["valid"])
         self.assertFalse(self.json_of("validate", "--strict", sample, status=1)["valid"])
@@ -149,7 +149,7 @@ class Calls(ProgramTest):
 class Fixes(ProgramTest):
     """--fix mends every sample of a fault that has one right answer, and leaves the others as they are."""
 
-    # What is left to find in the file written, where that is not nothing.
+    # Findings that remain in the written file, if there are any.
     LEFT = {"tetrahedron_flat": {"LATTICE_POINT_UNUSED"}}
     REPAIRED = ("tetrahedron_inverted", "tetrahedron_flat", "tetrahedron_duplicate", "surface_winding",
               "surface_inside_out", "point_unused", "mesh_point_unused", "spring_same_point", "spring_inert",
@@ -176,7 +176,7 @@ class Fixes(ProgramTest):
                 again = self.json_of("validate", self.path("out.sbf"))
                 self.assertEqual({m["code"] for m in again["messages"]}, self.LEFT.get(name, set()))
 
-    def test_what_cannot_be_decided_stays(self):
+    def test_ambiguous_faults_are_not_repaired(self):
         for sample in SAMPLES:
             name = os.path.basename(sample)
             expected = json.loads(read_text(report_beside(sample)))

@@ -1,4 +1,4 @@
-"""Results for ParaView: every file is read by Python's own XML, and the numbers are held against closed forms."""
+"""Results for ParaView: every file is read by Python's own XML, and the numbers are compared with closed forms."""
 
 import base64
 import glob
@@ -93,8 +93,8 @@ class Results(ProgramTest):
         self.good("run", bundle, *how, "--cache", self.path("out.pvd"))
         return read_series(self.path("out.pvd"))
 
-    def test_a_bar_bears_its_own_weight(self):
-        """Between two layers of points the mean stress is the weight of what hangs below, over the area."""
+    def test_a_bar_supports_its_own_weight(self):
+        """Between two layers of points the mean stress is the weight below, over the area."""
         side, layers, step = 2, 8, 0.05
         held = lambda points: '<pin_set name="Top"><points>%s</points></pin_set>' % numbers(
             *(i for i, p in enumerate(points) if p[1] > (layers - 0.5) * step))
@@ -126,7 +126,7 @@ class Results(ProgramTest):
         nodes = [s[1] for s, p in zip(last["PointData"]["stress"], start) if abs(p[1] - low - 4 * step) < 1e-6]
         self.assertAlmostEqual(sum(nodes) / len(nodes) / (DENSITY * GRAVITY * 4 * step), 1, delta=0.1)
 
-    def test_a_uniform_stretch_is_the_material_s_own_law(self):
+    def test_uniform_stretch_follows_the_material_law(self):
         stretch = 1.1
         held = lambda points: '<pin_set name="Hull"><points>%s</points><offsets>%s</offsets></pin_set>' % (
             numbers(*(i for i in range(27) if i != 13)),
@@ -144,7 +144,7 @@ class Results(ProgramTest):
             self.assertAlmostEqual(density / energy, 1, delta=0.005)
         self.assertTrue(all(abs(ratio - stretch) < 1e-3 for ratio in last["CellData"]["volume_ratio"]))
 
-    def test_nothing_is_left_of_what_fails(self):
+    def test_failures_leave_no_files(self):
         _, bundle = self.bundle((2, 4, 2), 0.1, lambda points: '<pin_set name="Top"><points>4 5</points></pin_set>')
         with open(self.path("out.pvd"), "w", encoding="utf-8") as file:
             file.write("old")

@@ -102,7 +102,7 @@ class RiggedInputs(ProgramTest):
             self.assertEqual([max(w, key=w.get) for _, (w, _) in sorted(found.items())], wanted)
 
     def test_several_characters_in_one_file(self):
-        """The rig is that of one: the other is named, and can be given away or left out."""
+        """The rig belongs to one of them: the other is reported, and can be assigned to a bone or left out."""
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
         objects = {"body": column.body, "hat": column.hat,
@@ -144,7 +144,7 @@ class RiggedInputs(ProgramTest):
         self.assertNotIn("RIG_OTHER_MESH", printed)
 
     def test_a_mesh_that_resembles_the_rigs(self):
-        """Another character of one maker may share its hat: what is carried over to its body is reported."""
+        """Another character of the same maker may have the same hat: weights transferred to its body are reported."""
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
         (points, triangles), objects = column.body, column.objects()
@@ -160,7 +160,7 @@ class RiggedInputs(ProgramTest):
             self.assertIn("from the nearest surface", printed)
             self.assertNotIn("RIG_OTHER_MESH", printed)
 
-    def test_a_part_that_is_another_characters(self):
+    def test_a_part_of_another_character(self):
         """Most of the input lies on the rig's mesh, but a hat is wider, as clothes of two people of one maker are."""
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
@@ -207,7 +207,7 @@ class RiggedInputs(ProgramTest):
         self.assertEqual(found, column.wanted["body"] + column.wanted["hat"])
         self.assertIn("5 lines that do not define polygons are skipped, the first is \"cstype\"", printed)
 
-    def test_what_holds_no_polygon_says_what_to_export(self):
+    def test_inputs_without_polygons_get_advice_to_export_meshes(self):
         rig = Column().glb.write(self.path("rig.glb"))
         with open(self.path("free.obj"), "w", encoding="ascii") as stream:
             stream.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nend\n")
@@ -223,7 +223,7 @@ class RiggedInputs(ProgramTest):
         self.assertIn("has only tetrahedra and cannot use a rig: convert the surface as OBJ or PLY with --rig", printed)
 
     def test_objects_named_as_bones_of_a_rig_without_a_mesh(self):
-        """They are sections of those bones, whatever bone is nearest; the others are computed."""
+        """They are sections of those bones, even if another bone is nearer; the others are computed."""
         write_bones(self.path("arm.bvh"))
         objects = {"hand": box((0.2, -0.2, -0.2), (0.8, 0.2, 0.2)), "fore": box((1.2, -0.2, -0.2), (1.8, 0.2, 0.2)),
                    "other": box((2.2, -0.2, -0.2), (2.8, 0.2, 0.2))}
@@ -231,7 +231,7 @@ class RiggedInputs(ProgramTest):
         self.assertEqual(found, ["hand"] * 8 + ["fore"] * 8 + ["hand"] * 8)
         self.assertIn("16 from the names of objects or bones, 8 computed from the bones", printed)
 
-    def test_polygons_with_points_of_their_own_become_one_body(self):
+    def test_unwelded_polygons_become_one_body(self):
         """As exporters write flat-shaded meshes. The two sides of a sheet, which also meet, stay separate."""
         write_bones(self.path("arm.bvh"))
         points, triangles = box((1.2, -0.2, -0.2), (1.8, 0.2, 0.2))
@@ -291,7 +291,7 @@ class RiggedInputs(ProgramTest):
             self.assertIn(f"{len(points)} from the bone that their piece touches", printed)
             self.assertEqual(f"{len(points)} of {len(found)} points are away from the mesh" in printed, reported)
 
-    def test_what_stands_on_a_joint_follows_one_bone(self):
+    def test_shells_on_a_joint_follow_one_bone(self):
         """A saddle that overlaps the skin of two bones: all of it hangs on the one that it touches most."""
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
@@ -321,7 +321,7 @@ class RiggedInputs(ProgramTest):
                 self.assertIn(f"{apart} of {2 + apart} shells of the object 'both' are apart from the rig", printed)
                 self.assertIn("'both#3'", printed)
 
-    def test_a_skin_of_its_own_is_kept(self):
+    def test_an_existing_skin_is_kept(self):
         """An input whose skin names the bones of the rig keeps it, though the rig's own mesh says otherwise."""
         column, other = Column(), Column()
         rig = column.glb.write(self.path("rig.glb"))
@@ -361,7 +361,7 @@ class RiggedInputs(ProgramTest):
 
 
 class ArmOfAnotherFile(ProgramTest):
-    def test_the_report_names_what_lies_apart(self):
+    def test_the_report_names_separate_objects(self):
         write_arm(self.path("arm.obj"))
         write_bones(self.path("arm.bvh"))
         with open(self.path("arm.obj"), "a", encoding="ascii") as stream:

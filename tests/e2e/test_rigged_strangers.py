@@ -107,7 +107,7 @@ class Ball(ProgramTest):
         write_bytes(self.path("ball.obj"), ball(24).encode())
         return call("convert", self.path("ball.obj"), "--rig", self.path("star.bvh"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
 
-    def test_bones_deep_inside_that_hold_no_skin_do_not_count(self):
+    def test_inner_bones_without_skin_are_ignored(self):
         self.assertEqual(self.convert(0).status, 0)
         result = self.convert(60)
         self.assertEqual(result.status, 1)
@@ -146,7 +146,7 @@ class Armadillo(ProgramTest):
                 for vertex, (weights, _) in weights_by_vertex(self.path("out.sbf")).items()]
 
     @needs(shared("armadillo", "armadillo_25k.obj"))
-    def test_one_skeleton_holds_three_resolutions_alike(self):
+    def test_one_skeleton_moves_three_resolutions_equally(self):
         """Nearest points have the same strongest bone: the coarser the mesh, the wider the steps between them."""
         write_surface(shared("armadillo", "armadillo_4k"), self.path("4k.obj"), 5)
         fine = self.weights(shared("armadillo", "armadillo_25k.obj"))

@@ -94,7 +94,7 @@ class ByPlace(ProgramTest):
                 if printed:
                     self.assertIn(printed, result.err)
 
-    def test_it_becomes_what_the_file_of_both_becomes(self):
+    def test_mesh_and_rig_convert_as_one_file_of_both(self):
         self.good("convert", CALF, "--soft", "*", "-o", self.path("original.sbf"))
         self.convert(variants.shuffled(variants.moved(self.calf.obj, 0.01, ("x", "-z", "y"))), "--soft", "*")
         reports, walks = [], []
@@ -150,7 +150,7 @@ class ByPlace(ProgramTest):
         self.convert(obj, *SOURCE_PARTS)
         self.assertGreaterEqual(equal_fraction(self.calf, obj, self.path("out.sbf")), 0.999)
 
-    def test_normals_uvs_materials_and_order_stay(self):
+    def test_normals_uvs_materials_and_order_are_kept(self):
         obj = variants.shuffled(variants.moved(self.calf.obj, 0.01, ("x", "-z", "y")))
         self.convert(obj, *SOURCE_PARTS)
         self.good("export", self.path("out.sbf"), "-o", self.path("back.obj"))
@@ -189,7 +189,7 @@ class InSavedPose(ProgramTest):
             for origin in obj.origins[vertex]:
                 self.assertLess(math.dist(position, self.calf.places[origin]), within * size)
 
-    def test_it_is_taken_back_to_the_bind_pose(self):
+    def test_the_input_is_moved_to_the_bind_pose(self):
         obj = posed(self.calf, self.motions)
         self.assertGreater(max(map(math.dist, obj.points, self.calf.obj.points)), 0.1)
         variants.write(obj, self.path("in.obj"))
@@ -211,13 +211,13 @@ class InSavedPose(ProgramTest):
         self.assertIn("rotated by -90 degrees about x", done.err)
         self.check(obj, 1e-4)
 
-    def test_the_bind_pose_is_found_in_such_a_file(self):
+    def test_the_bind_pose_is_found_in_a_posed_file(self):
         variants.write(self.calf.obj, self.path("in.obj"))
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertNotIn("has the pose of", done.err)
         self.check(self.calf.obj, 1e-5)
 
-    def test_an_edited_mesh_is_taken_back_by_the_weights_beside_it(self):
+    def test_an_edited_mesh_is_moved_to_the_bind_pose_by_nearby_weights(self):
         obj = variants.jiggled(posed(self.calf, self.motions), 1, 0.003)
         variants.write(obj, self.path("in.obj"), 6)
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
@@ -304,7 +304,7 @@ class AtAMomentOfAClip(ProgramTest):
         obj = self.write_posed(0.7331, lambda obj: variants.shuffled(variants.by_material(variants.moved(obj, 0.01, z_up))))
         self.assertIn("rotated by -90 degrees about x", self.check(obj, 0.7331).err)
 
-    def test_a_mesh_of_another_pose_is_not_taken_for_one(self):
+    def test_a_mesh_in_a_pose_of_no_clip_matches_no_clip(self):
         motions = save_in_a_pose(CALF, self.path("pose.glb"), {b: (0, 0, 0.2, 0.98) for b in self.bones[::3]})
         variants.write(posed(self.calf, motions), self.path("in.obj"), 6)
         done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
@@ -335,7 +335,7 @@ class ByNearness(ProgramTest):
                 unlike = [v for v, (w, _) in found.items() if difference(w, self.calf.expected(obj.origins[v])) > 0.5]
                 self.assertLess(len(unlike), 0.01 * len(found))
 
-    def test_nothing_in_common_but_the_shape(self):
+    def test_a_mesh_with_equal_shape_only_gets_the_rigs_weights(self):
         obj = variants.moved(variants.jiggled(self.calf.obj, 1, 0.004), 0.01, ("-x", "z", "y"))
         variants.write(obj, self.path("in.obj"), 6)
         result = self.good("convert", self.path("in.obj"), "--rig", CALF, *SOURCE_PARTS, "-o", self.path("out.sbf"))
@@ -344,8 +344,8 @@ class ByNearness(ProgramTest):
         unlike = [v for v, (w, _) in found.items() if difference(w, self.calf.expected(obj.origins[v])) > 0.5]
         self.assertLess(len(unlike), 0.02 * len(found))
 
-    def test_a_piece_beside_the_body_goes_with_the_bone_it_touches(self):
-        """A pole on the calf's back: all of it moves with one bone, that of the nearest point."""
+    def test_a_piece_beside_the_body_follows_the_bone_in_contact(self):
+        """A pole on the calf's back: all of it moves with one bone: the bone of the nearest point."""
         obj = variants.jiggled(self.calf.obj, 0)
         top = max(range(len(obj.points)), key=lambda i: obj.points[i][1])
         x, y, z = obj.points[top]
@@ -400,7 +400,7 @@ class ByNearness(ProgramTest):
             if y > 3.05:
                 self.assertEqual(weights, {"Foot": 1.0})
 
-    def test_an_object_like_one_without_bones_hangs_as_that_does(self):
+    def test_an_object_like_a_boneless_one_is_attached_equally(self):
         """A turret beside a skin, on no bone: an edited one gets none of the bones of the skin below it."""
         body, faces = tube(0, 3, 0.3, 25)
         hat, crown = tube(3.05, 3.3, 0.6, 5)
@@ -458,7 +458,7 @@ class FromFile(ProgramTest):
         return ("convert", self.calf.obj_path, "--rig", CALF, "--weights", weights, *SOURCE_PARTS, *options, "-o",
                 self.path("out.sbf"))
 
-    def test_what_export_writes_comes_back(self):
+    def test_exported_files_convert_back(self):
         for ending in "csv", "json":
             with self.subTest(ending):
                 self.good("export", self.calf.bundle, "-o", self.path("weights." + ending))
@@ -487,7 +487,7 @@ class FromFile(ProgramTest):
         write_bytes(self.path("w.csv"), f"vertex,bone,weight\n{rows}".encode())
         self.assertNotIn("the weights file has", self.good(*self.convert(self.path("w.csv"))).err)
 
-    def test_files_at_fault_are_refused_with_their_line(self):
+    def test_broken_files_are_refused_with_their_line(self):
         bone = next(iter(self.calf.weights[0]))
         faults = {
             "vertex,bone,weight\n0,Nobody,1\n": "line 2|no bone of",
@@ -522,13 +522,13 @@ class FromFile(ProgramTest):
         self.good("convert", CALF, "--weights", self.path("weights.csv"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertEqual({b for w, _ in weights_by_vertex(self.path("out.sbf")).values() for b in w}, {bone})
 
-    def test_ways_without_anything_to_choose_from(self):
+    def test_weights_option_needs_a_rig(self):
         self.assertIn("--rig FILE", self.fails(2, "convert", self.calf.obj_path, "--weights", "match", "-o",
                                                self.path("out.sbf")))
         self.assertIn("has its own", self.fails(2, "convert", CALF, "--weights", "match", "-o", self.path("out.sbf")))
         self.assert_empty_folder()
 
-    def test_a_word_that_is_no_way_and_no_file(self):
+    def test_unknown_methods_and_missing_files(self):
         self.assertIn("named, match, transfer", self.fails(2, *self.convert("nearest")))
 
 
@@ -546,7 +546,7 @@ class FromBones(ProgramTest):
         variants.write(obj, self.path("in.obj"), 6)
         return ("convert", self.path("in.obj"), "--rig", self.bones, *options, "-o", self.path("out.sbf"))
 
-    def test_unit_and_axes_are_found_by_what_lies_inside(self):
+    def test_unit_and_axes_are_found_by_bones_inside(self):
         for name, (obj, printed) in {
                 "as it is": (self.calf.obj, None),
                 "centimetres, Z up": (variants.moved(self.calf.obj, 0.01, ("x", "-z", "y")), "-90 degrees about x"),
@@ -627,7 +627,7 @@ class FromBones(ProgramTest):
         self.assertIn("IMPORT_RIG_OUTSIDE", [note["code"] for note in report["notes"]])
         self.assertTrue(report["pictures"] or report["drawing_failed"])
 
-    def test_bones_that_a_clip_may_have_moved_are_to_be_exported_at_rest(self):
+    def test_posed_bones_get_advice_to_export_at_rest(self):
         """Exporters write bones without a mesh as they stand at the moment."""
         add_clip(CALF, self.path("jump.glb"), "Jump", {"head": (0, 0, math.sin(0.2), math.cos(0.2))}, 1)
         posed_inputs.write_bones(self.path("jump.glb"), self.path("bones.glb"))
@@ -672,7 +672,7 @@ class FromBones(ProgramTest):
             self.assertGreater(same * sign, 0)
         self.assertIn("upward axis", self.fails(2, *self.convert(self.calf.obj, "--forward", "y")))
 
-    def test_stated_units_hold(self):
+    def test_stated_units_are_used(self):
         """--unit says how large the input is: then the rig is too large for it."""
         printed = self.fails(1, "convert", self.calf.obj_path, "--rig", CALF, "--unit", "0.01", "--weights", "match", "-o",
                           self.path("out.sbf"))

@@ -160,7 +160,7 @@ class ClosedForms(RigidTest):
         # The world is 0.5 m above the lift, less by its weight.
         self.assertAlmostEqual(moves["lift"][-1][1][1], 49.5 - GRAVITY / 1000, delta=2e-3)
 
-    def test_a_fixed_joint_holds(self):
+    def test_a_fixed_joint_keeps_the_pose(self):
         scene = Scene()
         body = scene.body("sign", mass=5)
         scene.joint(body, None, [LINEAR, ANGULAR], at=(0, 2, 0), other_at=(0, 52, 0))
@@ -241,7 +241,7 @@ class Masses(RigidTest):
         for have, want in zip(moments, (2 * ball * 0.1, 2 * ball * (0.1 + 4), 2 * ball * (0.1 + 4))):
             self.assertAlmostEqual(have, want, delta=1e-4 * want)
 
-    def test_stated_values_are_taken(self):
+    def test_stated_values_are_used(self):
         scene, half = Scene(), math.sqrt(0.5)
         scene.body("stated", rotation=(0, half, 0, half), mass=4, centerOfMass=[0, 0, 0.5], inertiaDiagonal=[1, 2, 3],
                    inertiaOrientation=[0, 0, 0, 1])
@@ -271,7 +271,7 @@ class Surroundings(RigidTest):
         for what in ("3 of KHR_physics_rigid_bodies: static frictions", "3 of KHR_physics_rigid_bodies: rules of combining"):
             self.assertIn(what, printed)
 
-    def test_what_is_lost_is_counted(self):
+    def test_lost_parts_are_counted(self):
         scene = Scene()
         scene.node("ground", None, {"collider": scene.shape("plane")})
         scene.node("door", None, {"trigger": scene.shape("box", size=[1, 1, 1])})
@@ -428,10 +428,10 @@ class Written(RigidTest):
                 self.assertAlmostEqual(x, y, delta=1e-5)
             self.assertAlmostEqual(abs(sum(x * y for x, y in zip(q, s))), 1, delta=1e-5)
 
-    def test_the_lizard_goes_round(self):
+    def test_the_lizard_round_trips(self):
         self.assert_goes_round(example(self.folder))
 
-    def test_simulated_bodies_go_round(self):
+    def test_simulated_bodies_round_trip(self):
         scene = Scene()
         base = scene.body("base", mass=3, centerOfMass=[0, 0.1, 0], gravityFactor=0.5)
         tip = scene.body("tip", at=(0, 52, 0), mass=1)
@@ -486,7 +486,7 @@ class Samples(RigidTest):
                          ["spherical", "spherical", "revolute", "revolute", "prismatic", "six_dof", "fixed", "six_dof", "revolute",
                           "revolute", "prismatic"])
 
-    def test_joints_move_as_they_say(self):
+    def test_joints_move_as_defined(self):
         moves = self.motion(self.bundle("JointTypes.glb"), 6)
         for value, wanted in zip(moves["Cube.011"][-1][1], (0.25, 2.3, 0)):  # fixed
             self.assertAlmostEqual(value, wanted, delta=1e-3)

@@ -41,7 +41,7 @@ class Recoveries(ProgramTest):
         self.assertGreater(report["inverted"]["cube"]["frames"], 0)
         self.assertGreater(report["stretched"]["cube"]["max_strain"], 9)
 
-    def test_what_is_stretched_beyond_any_material_is_not_valid(self):
+    def test_extreme_stretch_is_invalid(self):
         """Two bodies of one name, each one region of four points, fall onto a corner at a few frames a second."""
         source, file = self.path("two.obj"), self.path("two.sbf")
         corners = ((0, 0, 0), (.2, 0, 0), (0, .2, 0), (0, 0, .2))
@@ -56,7 +56,7 @@ class Recoveries(ProgramTest):
         self.assertEqual(len(report["stretched"]), 2)
         self.assertEqual(max(one["max_strain"] for one in report["stretched"].values()), report["max_strain"])
 
-    def test_what_springs_fold_is_called_crushed(self):
+    def test_bodies_collapsed_by_springs_are_reported_as_crushed(self):
         """A ball of 7 mm strikes the ground at its speed of sound: its springs rest folded, and none is inside out."""
         source, file = self.path("ball.obj"), self.path("ball.sbf")
         rows, around, radius = 10, 16, 0.007
@@ -75,7 +75,7 @@ class Recoveries(ProgramTest):
         self.assertEqual(report["crushed"]["ball"]["min_volume_ratio"], report["volume_ratio_least"])
         self.assertIn('soft body "ball" ends crushed', call(*arguments).err)
 
-    def test_what_its_own_walk_strains_is_left_alone(self):
+    def test_strain_of_a_walk_is_not_reset(self):
         """A calf of 7 m on stairs: the pins of its soft parts accelerate by more than gravity."""
         large = self.path("large.sbf")
         self.good("convert", os.path.join(ROOT, "examples", "calf", "calf.glb"), "--unit", 10, "-o", large)
@@ -83,7 +83,7 @@ class Recoveries(ProgramTest):
         self.assertGreater(report["max_strain"], 0.4)
         self.assertEqual((report["valid"], report["recoveries"]), (True, 0))
 
-    def test_what_the_ground_turns_inside_out_is_put_back(self):
+    def test_bodies_inverted_by_the_ground_are_reset(self):
         """A yeti on steps of one and a half metres: its bones hold a thigh in the ground, which pushes the skin out above it."""
         yeti = convert_once(self.class_folder.name, "yeti.sbf", os.path.join(ROOT, "examples", "yeti", "yeti.glb"))
         report = self.json_of("run", yeti, "--seconds", 2.5, "--drive", "0.5,0", "--ground", "stairs:1.5,0.2")

@@ -77,7 +77,7 @@ class Run(ProgramTest):
         self.assertEqual(len(hashes), 1)
         self.assertNotIn(self.run_json("--drive", "0.2,0.11")["state_hash"], hashes)
 
-    def test_the_state_does_not_hang_on_threads(self):
+    def test_the_state_does_not_depend_on_threads(self):
         files = []
         for threads in (1, 2, 5):
             out = self.path(f"{threads}.pc2")
@@ -86,11 +86,11 @@ class Run(ProgramTest):
         self.assertEqual(files[0], files[1])
         self.assertEqual(files[0], files[2])
 
-    def test_the_state_does_not_hang_on_frames(self):
+    def test_the_state_does_not_depend_on_frames(self):
         ends = {fps: self.run_json("--drive", "0.3,0.2", "--fps", fps, seconds=1)["state_hash"] for fps in (30, 60, 240)}
         self.assertEqual(len(set(ends.values())), 1, ends)
 
-    def test_both_forms_move_alike(self):
+    def test_both_forms_move_equally(self):
         packed = self.path("a.sbfz")
         self.good("pack", self.file, "-o", packed)
         report = self.json_of("run", packed, "--seconds", "0.5")
@@ -98,7 +98,7 @@ class Run(ProgramTest):
 
     # ---- Options ----
 
-    def test_held_bones_stay_at_rest(self):
+    def test_bones_stay_at_rest_with_hold(self):
         out = self.path("p.csv")
         self.run_json("--hold", "--drive", "0,0", "--pose", out)
         poses, _, _ = read_poses(out)
@@ -197,12 +197,12 @@ class Run(ProgramTest):
         self.json_of("run", odd, "--seconds", "0", "--pose", self.path("p.csv"))
         self.assertIn(strange, read_poses(self.path("p.csv"))[0][0])
 
-    def test_nothing_is_left_beside_the_files(self):
+    def test_no_temporary_files_are_left(self):
         self.run_json("--cache", self.path("a.pc2"), "--pose", self.path("b.csv"))
         self.assert_empty_folder(but=["a.pc2", "b.csv"])
 
     def test_a_pipe_is_written_to_and_not_replaced(self):
-        """What holds for it holds for a device, as in `--pose /dev/null` by root."""
+        """The same is true for a device, as in `--pose /dev/null` by root."""
         pipe, printed = self.path("pipe"), []
         os.mkfifo(pipe)
         reader = threading.Thread(target=lambda: printed.append(read_bytes(pipe)))
@@ -266,7 +266,7 @@ class Run(ProgramTest):
         long = self.run_script("0 drive 0.3 0.1 # " + "0 reset " * 200 + "\n0.1 drive 0 0\n")
         self.assertEqual(long["state_hash"], self.run_script("0 drive 0.3 0.1\n0.1 drive 0 0")["state_hash"])
 
-    def test_so_many_substeps_are_no_step(self):
+    def test_too_many_substeps_are_refused(self):
         self.assertIn("--substeps takes a whole number from 1 to 1024",
                       self.fails(2, "run", self.file, "--seconds", "0", "--substeps", "1025"))
 

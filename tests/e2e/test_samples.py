@@ -63,14 +63,14 @@ class ValidSamples(ProgramTest):
             report = self.json_of("validate", path)
             self.assertEqual((report["valid"], report["messages"]), (True, []), path)
 
-    def test_each_is_canonical_and_goes_round(self):
+    def test_each_is_canonical_and_round_trips(self):
         for path in VALID:
             for options in ((), ("--store",)):
                 self.good("pack", path, "-o", self.path("a.sbfz"), *options)
                 self.good("unpack", self.path("a.sbfz"), "-o", self.path("a.sbf"))
                 self.assertEqual(read_bytes(self.path("a.sbf")), read_bytes(path), path)
 
-    def test_together_they_show_every_field_and_word(self):
+    def test_samples_cover_every_field_and_enum_value(self):
         schema = schema_reader.read(os.path.join(ROOT, "spec", "sbf.schema"))
         seen = Seen(schema)
         for path in VALID:

@@ -1,4 +1,4 @@
-"""Formats that assimp reads and of which no real file is at hand: a small box in each, written by scene_files.py."""
+"""Formats that assimp reads, without real files: a small box in each, written by scene_files.py."""
 
 import re
 import unittest
@@ -73,7 +73,7 @@ class Boxes(ProgramTest):
         bundle, _ = self.converted("a.ply", scene_files.ply(), "--unit", "0.1", "--up", "z")
         self.check_box(bundle, (0, 0, -0.2), (0.1, 0.3, 0))
 
-    def test_numbers_that_are_none_are_refused(self):
+    def test_invalid_numbers_are_refused(self):
         for name, content in (("nan.ply", scene_files.ply().replace(b"0 0 3", b"0 nan 3")),
                               ("nan.stl", scene_files.stl_binary().replace(b"\0\0\x40\x40", b"\0\0\xc0\x7f")),
                               ("inf.off", scene_files.off().replace(b"0 0 3", b"0 1e999 3"))):

@@ -25,11 +25,11 @@ ERRORS = {
     "sausage/sausage_6100_unsupported.fbx": ("IMPORT_REFUSED", "export it as a current FBX"),
 }
 
-# Points, where they are not the README's vertices; those of a GLB are counted anew from the file.
+# Points, if they differ from the README's vertices; points of a GLB are counted from the file.
 POINTS = {
     "lizard/liz.fbx": 524,  # assimp loses the stray vertex of Arm1.R, which is in no polygon
     "lizard/lizart.fbx": 592,  # and here
-    "walk-dae/walk.dae": 7786,  # 59 of its 7845 vertices stand where another does and move alike
+    "walk-dae/walk.dae": 7786,  # 59 of its 7845 vertices have the position and weights of another
 }
 OBJECTS = {
     "mocap/cmu_01_01.bvh": 0,  # the mesh that assimp invents is not there
@@ -96,7 +96,7 @@ def is_of_tetrahedra(path):
 
 
 def points_of_glb(path):
-    """Points that a reader of the file finds: of a node's vertices those in one place that move alike are one."""
+    """Points that a reader of the file finds: vertices of a node with equal positions and weights are one."""
     glb, found = Glb(path), set()
     for node, primitive in glb.primitives():
         attributes = primitive["attributes"]
@@ -130,7 +130,7 @@ class EveryFile(ProgramTest):
         self.assertGreater(len(there), 50)
         self.assertEqual({p for p in there if not p.endswith(".ele")} - set(self.readme), set())
 
-    def test_files_at_fault_end_in_their_error(self):
+    def test_broken_files_give_their_error(self):
         for path, (code, word) in ERRORS.items():
             for options in ((), (*SOURCE_PARTS,)):
                 with self.subTest(path, options=options):

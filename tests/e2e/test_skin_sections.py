@@ -75,7 +75,7 @@ class SkinSections(ProgramTest):
         self.good("build", self.calf, "-o", again)
         self.assertEqual(read_bytes(again), read_bytes(self.calf))
 
-    def test_the_source_stays(self):
+    def test_the_source_is_unchanged(self):
         root = ElementTree.parse(self.calf).getroot()
         self.assertIsNone(root.find("render_mesh").get("derived"))
         self.assertIsNotNone(root.find("render_mesh/skin"))
@@ -83,7 +83,7 @@ class SkinSections(ProgramTest):
                      *root.findall("rigid_bodies/rigid_body")):
             self.assertIsNotNone(part.get("derived"), part.get("id"))
 
-    def test_a_calf_that_wears_something_is_cut_as_without_it(self):
+    def test_clothes_do_not_change_the_calfs_sections(self):
         def skin_of(path):
             """The skin's vertices that each of its sections carries, the worn bodies, and the skin's id."""
             root = ElementTree.parse(path).getroot()
@@ -96,7 +96,7 @@ class SkinSections(ProgramTest):
         bare = skin_of(self.calf)[0]
 
         def least_volume_of(path):
-            """Of several walks: what is worn has a mass, and makes each of them a little different."""
+            """Of several walks: clothes have a mass, which changes each walk a little."""
             reports = [self.json_of("run", path, "--seconds", "2", "--drive", drive) for drive in ("0.3,0", "0.5,0")]
             self.assertTrue(all(report["valid"] for report in reports))
             return min(report["volume_ratio_least"] for report in reports)
@@ -115,19 +115,19 @@ class SkinSections(ProgramTest):
                 self.assertEqual([m for m in self.json_of("validate", out)["messages"] if m["severity"] == "error"], [])
                 self.assertGreater(least_volume_of(out), minimum - 1e-3)
 
-    def test_none(self):
+    def test_no_sections(self):
         plain = self.path("plain.sbf")
         self.good("build", self.calf, "-o", plain, "--sections", "none")
         self.assertEqual(self.json_of("info", plain)["sections"], [])
         self.fails(2, "build", self.calf, "-o", plain, "--sections", "some")
 
-    def test_an_overlap_of_ones_own(self):
+    def test_a_stated_overlap_widens_sections(self):
         wide = self.path("wide.sbf")
         self.good("build", self.calf, "-o", wide, "--overlap", "0.1")
         points = [sum(s["vertices"] for s in self.json_of("info", path)["sections"]) for path in (self.calf, wide)]
         self.assertGreater(points[1], 1.2 * points[0])
 
-    def test_limits_that_the_rig_states_are_those_of_the_sections(self):
+    def test_sections_get_the_joint_limits_of_the_rig(self):
         rig, out = self.path("limits.glb"), self.path("limits.sbf")
         write_bytes(rig, with_limits(read_bytes(CALF), "fore_lower.L", {"swing_z": [-0.5, 1.25], "twist": [-0.25, 0.25]}))
         self.good("convert", rig, "-o", out)
@@ -160,7 +160,7 @@ class SkinSections(ProgramTest):
         self.assertEqual({n: m for n, m in moduli(again).items() if m != moduli(self.calf)[n]}, {"tail2": "1200000"})
         self.assertIn("no soft body or bone has the name 'tail9'", self.fails(2, "build", out, "-o", again, "--material", "tail9=fat"))
 
-    def test_what_is_painted_on_the_skin_is_held(self):
+    def test_points_painted_on_the_skin_are_pinned(self):
         out, again = self.path("held.sbf"), self.path("again.sbf")
         self.good("convert", CALF, "-o", out, "--soft", "*", "--budget", "none", "--hold", "head", "--hold", "tail3=tail2",
                   "--goal", "0,0.8")

@@ -33,7 +33,7 @@ class Softness(ProgramTest):
         self.good("convert", CALF, "-o", out, *options)
         return out
 
-    def test_what_shows_is_soft(self):
+    def test_visible_parts_are_soft(self):
         soft = soft_of(self.calf)
         self.assertIn("spine", soft)
         self.assertFalse([name for name in soft if "foot" in name or "lower" in name], "lower legs stay with their bones")
@@ -41,7 +41,7 @@ class Softness(ProgramTest):
         self.assertEqual({s["bone"] for s in self.json_of("info", self.calf)["sections"]}, soft)
         self.assertTrue(all(r.get("proposed") == "true" for r in recipes_of(self.calf).values()))
 
-    def test_what_swings_is_not_soft_as_well(self):
+    def test_jiggling_parts_are_not_soft(self):
         """Ears of a glTF file with VRMC_springBone move as pendulums; the same ears are soft without."""
         glb = SkinnedGlb.of(CALF)
         number = {node["name"]: i for i, node in enumerate(glb.json["nodes"]) if "mesh" not in node}
@@ -71,8 +71,8 @@ class Softness(ProgramTest):
         self.assertLessEqual(report["substeps"], MOST_SUBSTEPS)
         self.assertEqual(report["seam_gap"], 0)
 
-    def test_vertices_beside_a_soft_part_go_by_all_their_bones(self):
-        """No pose tears the skin between a section and what is rigid: at rest each vertex is in its place, and blends sum to 1."""
+    def test_vertices_beside_a_soft_part_follow_all_their_bones(self):
+        """No pose tears the skin between sections and rigid parts: at rest each vertex is at its position, and blends sum to 1."""
         root = ElementTree.parse(self.calf).getroot()
         shares = {}
         for embedding in root.findall("soft_body/level/embedding[@render_mesh]"):
@@ -134,7 +134,7 @@ class Softness(ProgramTest):
         self.assertGreater(report["distance"], 0.3)
 
     def test_heads_in_any_language_are_not_soft(self):
-        """A person's face is painted on its head, whatever that is called."""
+        """A person's face is painted on its head, under any name of the head."""
         yeti = os.path.join(ROOT, "examples", "yeti", "yeti.glb")
         for head in ("head", "Kopf", "голова", "头"):
             glb, out = SkinnedGlb.of(yeti), self.path("yeti.sbf")
@@ -143,7 +143,7 @@ class Softness(ProgramTest):
             self.assertIn("1 head or face", self.good("convert", glb.write(self.path("yeti.glb")), "-o", out).err, head)
             self.assertNotIn(head, soft_of(out))
 
-    def test_hair_on_a_rigid_head_is_no_fault(self):
+    def test_hair_on_a_rigid_head_is_valid(self):
         """A skinned mesh of its own moves with a head that the conversion itself left rigid."""
         glb, out = SkinnedGlb.of(os.path.join(ROOT, "examples", "yeti", "yeti.glb")), self.path("yeti.sbf")
         head = [n.get("name") for n in glb.json["nodes"]].index("head")

@@ -38,17 +38,17 @@ class Standing(ProgramTest):
         self.assertTrue(report["valid"])
         self.assertGreater(report["volume_ratio"], 0.95)
 
-    def test_it_is_raised_from_there(self):
+    def test_raise_lifts_it_above_the_floor(self):
         positions, _ = self.first_places("--raise", "0.25")
         self.assertAlmostEqual(min(y for _, y, _ in positions), 0.25, delta=1e-5)
 
-    def test_on_a_slope_no_point_begins_below(self):
+    def test_no_point_begins_below_a_slope(self):
         positions, report = self.first_places("--ground", "slope:20", seconds="1")
         slope = 0.3639702  # tan 20 degrees
         self.assertGreater(min(y - max(z, 0) * slope for _, y, z in positions), -1e-5)
         self.assertTrue(report["valid"])
 
-    def test_what_is_above_the_ground_stays_there(self):
+    def test_characters_above_the_ground_are_not_moved(self):
         out = self.path("high.obj")
         write_bytes(out, "".join(
             f"v {' '.join(str(float(n) + 2) for n in line.split()[1:])}\n" if line.startswith("v") else line + "\n"
@@ -65,7 +65,7 @@ class Standing(ProgramTest):
             report = self.json_of("run", self.file, "--seconds", "3")
             self.assertTrue(report["valid"], name)
 
-    def test_wedges_thinner_than_their_elements_bear_themselves(self):
+    def test_wedges_thinner_than_their_elements_support_themselves(self):
         wedges = shared("multi/boxes156.obj")
         if not os.path.exists(wedges):
             self.skipTest("../shared/data/multi/boxes156.obj is not there")

@@ -105,7 +105,7 @@ class StrangerRigs(ProgramTest):
                 low, high = (self.json_of("info", self.path("out.sbf"))["bounds"][k][1] for k in ("min", "max"))
                 self.assertAlmostEqual(high - low, 1.79, delta=0.02)
 
-    def test_motion_capture_of_blender_stands_as_the_input(self):
+    def test_motion_capture_of_blender_has_the_pose_of_the_input(self):
         """Blender writes the armature's own axes, and bones without a parent below a root that it invents."""
         mesh = write_person_obj(self.path("in.obj"), 1)
         for axes, rotated in ((("x", "-y", "-z"), "by 180 degrees about x"), (("x", "-z", "y"), "by -90 degrees about x")):

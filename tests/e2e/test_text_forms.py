@@ -38,7 +38,7 @@ NO_NUMBERS = ("1.#QNAN", "-1.#IND", "1.#INF", "1.#SNAN", "nan", "inf")
 
 class Skeletons(ProgramTest):
     def skins(self, *tubes, **options):
-        """Of each skinned mesh: mean x and z of its points, and the x of the bones that hold it."""
+        """Of each skinned mesh: mean x and z of its points, and x of the bones that move it."""
         source, out = self.path("in.dae"), self.path("out.sbf")
         collada_files.write(source, tubes, **options)
         self.good("convert", source, "--no-build", "-o", out)

@@ -59,7 +59,7 @@ class Tuned(ProgramTest):
         self.assertEqual([motion["name"] for motion in self.all["reference"]["motions"]], ["walk", "hop", "shake"])
         self.assertGreater(self.all["reference"]["most_m"], 0)
 
-    def test_the_file_holds_what_was_measured(self):
+    def test_the_file_has_the_measured_values(self):
         result = call("validate", os.path.join(self.place, "all.sbf"))
         self.assertEqual(result.status, 0, result.out + result.err)
         printed = self.all["levels"]
@@ -94,7 +94,7 @@ class Tuned(ProgramTest):
         refused = [trial for trial in self.all["trials"] if trial["outcome"] == "refused"]
         self.assertTrue(any("is stepped by" in trial["error"]["why"] for trial in refused), refused[:3])
 
-    def test_a_goal_takes_the_cheapest_that_keeps_it(self):
+    def test_a_goal_selects_the_cheapest_candidate_within_it(self):
         front = sorted((trial for trial in self.all["trials"] if trial["on_front"]), key=lambda trial: trial["visits"])
         self.assertGreater(len(front), 1)
         goal = self.all["levels"][-1]["motion_error_m"] * 1.0001
@@ -111,7 +111,7 @@ class Tuned(ProgramTest):
         same = call("diff", os.path.join(self.place, "all.sbf"), os.path.join(self.place, "again.sbf"))
         self.assertEqual(same.status, 0, same.out)  # times are left out of it
 
-    def test_what_was_tuned_can_be_tuned_and_built_again(self):
+    def test_tuned_files_can_be_tuned_and_built_again(self):
         first = os.path.join(self.place, "all.sbf")
         second, built = os.path.join(self.place, "second.sbf"), os.path.join(self.place, "built.sbf")
         result = call("tune", first, "-o", second, *SMALL[:4], "--quick", *NEAREST_OF_ALL)
@@ -159,7 +159,7 @@ class Tuned(ProgramTest):
         kept = report["levels"][0]["motion_error_p99_m"] <= report["error_asked_m"]
         self.assertEqual(kept, report["verdict"] == "met")
 
-    def test_what_costs_more_than_what_keeps_the_goal_is_not_tried(self):
+    def test_candidates_costlier_than_a_sufficient_one_are_not_tried(self):
         report = self.tune("first.sbfz", "--error", repr(self.all["levels"][-1]["motion_error_m"] * 1.0001))
         dearer = [trial for trial in report["trials"] if trial["outcome"] == "dearer"]
         self.assertTrue(dearer)
@@ -180,7 +180,7 @@ class Tuned(ProgramTest):
             self.good("validate", out)
             os.remove(out)
 
-    def test_what_is_far_off_at_best_has_a_nearest(self):
+    def test_an_unreachable_goal_gives_the_nearest_candidate(self):
         soft = self.path("soft.sbfz")
         self.good("convert", os.path.join(EXAMPLES, "pudding", "pudding.glb"), "--firmness", "0.1", "-o", soft)
         report = self.json_of("tune", soft, "-o", self.path("far.sbfz"), *SMALL, "--quick", "--nearest")
@@ -188,14 +188,14 @@ class Tuned(ProgramTest):
         self.assertGreater(report["levels"][0]["motion_error_m"], 0.05 * report["size_m"])
         self.good("validate", self.path("far.sbfz"))
 
-    def test_where_every_lattice_breaks_the_finest_level_of_the_file_is_the_reference(self):
+    def test_the_files_finest_level_is_the_reference_if_every_lattice_fails(self):
         soft = self.path("softer.sbfz")
         self.good("convert", os.path.join(EXAMPLES, "pudding", "pudding.glb"), "--firmness", "0.007", "-o", soft)
         report = self.json_of("tune", soft, "-o", self.path("own.sbfz"), *SMALL, "--quick", "--nearest")
         self.assertEqual(report["reference"]["model"], "as built")
         self.assertTrue(report["written"])
 
-    def test_what_has_nothing_soft_is_written_as_it_is(self):
+    def test_files_without_soft_bodies_are_written_unchanged(self):
         rigid, out = self.path("rigid.sbfz"), self.path("out.sbfz")
         self.good("convert", os.path.join(EXAMPLES, "spider", "spider.glb"), "--rigid", "*", "-o", rigid)
         self.assertIn("nothing is soft", self.good("tune", rigid, "-o", out).out)
@@ -203,7 +203,7 @@ class Tuned(ProgramTest):
         self.assertEqual(self.json_of("tune", rigid, "-o", out)["verdict"], "met")
 
     def test_candidates_worse_than_the_best_are_stopped_early(self):
-        visits = [trial["visits"] for trial in self.all["trials"]]  # none of what is refused, which stands behind
+        visits = [trial["visits"] for trial in self.all["trials"]]  # without the refused ones, which come last
         tried = [trial["visits"] for trial in self.all["trials"] if trial["outcome"] != "refused"]
         self.assertEqual(visits, sorted(tried) + [None] * (len(visits) - len(tried)))
         beaten = [trial for trial in self.all["trials"] if trial["outcome"] == "beaten"]

@@ -51,12 +51,12 @@ class Versions(ProgramTest):
         struct.pack_into("<H", data, 10, 0)
         self.both_take(self.sealed(data), False, "VERSION_FIELD")
 
-    def test_a_writer_states_the_lowest_version_that_will_do(self):
+    def test_a_writer_states_the_lowest_sufficient_version(self):
         for stated, inside, written in (("1.0", "", "1.0"), ("1.1", "", "1.1"), ("1.1", TRANSFORM, "1.1")):
             self.good("unpack", self.text(stated, inside=inside), "-o", self.path("out.sbf"))
             self.assertIn(f'<sbf version="{written}">'.encode(), read_bytes(self.path("out.sbf")))
 
-    def test_what_a_newer_version_adds_is_left_out_and_reported(self):
+    def test_additions_of_a_newer_version_are_left_out_and_reported(self):
         newer = self.text("1.99", ' gloss="2"', "<glow><x>1</x></glow>", '<fog density="2"/>')
         self.both_take(newer, True, "VERSION_NEWER")
         printed = "has version 1.99, this library knows 1.4: 3 parts of it were left out, the first is " \
@@ -93,7 +93,7 @@ class Versions(ProgramTest):
         self.assertEqual(result.status, 0, result.err)
         self.assertIn("has version 1.7, this library knows 1.4: 1 part of it was left out, the first is field 999 of /sbf", result.err)
 
-    def test_gaps_hold_zeros_in_versions_that_are_known(self):
+    def test_padding_is_zero_in_known_versions(self):
         whole = self.packed(self.text("1.1"))
         for filler, minor, takes in ((b"\0", 1, True), (b"\1", 1, False), (b"\1", 9, True)):
             data = whole + b"\0" * 63 + filler

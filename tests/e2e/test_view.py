@@ -78,7 +78,7 @@ class View(ProgramTest):
         self.assertLess(stops["walked"], walks["walked"])
         self.assertEqual(len({one["state_hash"] for one in (still, walks, stops, turns)}), 4)
 
-    def test_pace_and_drive(self):
+    def test_speed_and_drive(self):
         fast = self.view(30, "0 tap F", "0 down W")
         walk = self.view(30, "0 down W")
         self.assertEqual((walk["pace"], fast["pace"]), ("walk", "fast"))
@@ -117,7 +117,7 @@ class View(ProgramTest):
         self.assertEqual((report["balls_thrown"], report["ball_hits"] > 0), (1, True))
         self.assertNotEqual(report["state_hash"], self.view(45)["state_hash"])
 
-    def test_the_body_is_dragged_and_the_ground_turns_the_view(self):
+    def test_dragging_moves_the_body_or_rotates_the_view(self):
         begins = self.view(1)["camera"]
         pulled = self.view(25, "0 press 0.5 0.5", "5 move 0.55 0.3")
         self.assertTrue(pulled["holds"])
@@ -131,7 +131,7 @@ class View(ProgramTest):
         self.assertLess(self.view(2, "0 wheel 3")["camera"]["distance"], begins["distance"])
         self.assertGreater(self.view(2, "0 tap -")["camera"]["distance"], begins["distance"])
 
-    def test_what_has_no_bones_is_pressed(self):
+    def test_bodies_without_bones_are_pressed(self):
         file = self.path("block.sbf")
         write_bytes(self.path("block.obj"), b"""o block
 v -0.2 0 -0.2
@@ -168,7 +168,7 @@ f 4 1 5 8
         self.assertEqual(again["balls_thrown"], 1)
         self.assertTrue(again["valid"])
 
-    def test_what_is_done_can_be_recorded_and_run_again(self):
+    def test_inputs_are_recorded_and_replayed(self):
         record = self.path("played.sbrec")
         shown = self.view(40, "0 down W", "20 press 0.5 0.5", "24 move 0.5 0.3", more=("--record", record))
         self.assertTrue(shown["holds"])
@@ -177,7 +177,7 @@ f 4 1 5 8
         self.assertEqual(ran["state_hash"], shown["state_hash"])
         self.assertEqual(self.view(40, more=("--replay", record))["state_hash"], shown["state_hash"])
 
-    def test_calls_that_are_wrong_say_so(self):
+    def test_wrong_calls_are_reported(self):
         at = ("view", self.file, *SMALL)
         printed = self.fails(2, *at, "--frames", "1", environment={**QUIET, "DISPLAY": ":999"})
         self.assertIn("display", printed)
@@ -196,7 +196,7 @@ f 4 1 5 8
 
     @unittest.skipUnless(shutil.which("xdotool"), "there is no xdotool to press keys with")
     def held(self, shot, seconds):
-        """W held so long, then a ball, another size and the end, as a keyboard gives them; what is then said."""
+        """W pressed for some time, then a ball, another size and the end, as keyboard events; returns the output."""
         program = subprocess.Popen([PROGRAM, "view", self.file, *SMALL, "--shot", shot, "--format", "json"],
                                    env={**os.environ, **self.environment}, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 

@@ -15,7 +15,7 @@ class Vtu(ProgramTest):
         points = rows([float(n) for n in level.find("positions").text.split()], 3)
         return points, rows([int(n) for e in level.iter("tetrahedra") for n in e.text.split()], 4), printed
 
-    def test_every_way_gives_the_same_grid(self):
+    def test_every_encoding_gives_the_same_grid(self):
         for name, content in every_way():
             with self.subTest(name):
                 points, tetrahedra, printed = self.grid(content)
@@ -39,7 +39,7 @@ class Vtu(ProgramTest):
             self.assertEqual(len(tetrahedra), 3000)
             self.assertEqual(found, points)
 
-    def test_the_build_takes_it(self):
+    def test_the_build_accepts_it(self):
         path = write_bytes(self.path("a.vtu"), vtu())
         self.good("convert", path, "-o", self.path("out.sbfz"))
         self.good("validate", self.path("out.sbfz"))

@@ -38,7 +38,7 @@ class Walk:
         names = set(self.json_of("run", self.file, "--seconds", "0")["steps_taken"])
         return [section for section in self.sections if section.bone in names]
 
-    def test_every_foot_steps_and_none_slips(self):
+    def test_every_foot_steps_without_slipping(self):
         report, poses, cache = self.walk()
         self.assertTrue(report["valid"])
         self.assertGreaterEqual(report["distance"], self.least_distance)
@@ -58,7 +58,7 @@ class Walk:
         self.assertGreaterEqual(report["volume_ratio"], self.least_volume)
         self.assertGreaterEqual(report["volume_ratio_least"], self.least_volume)
 
-    def test_the_body_goes_where_it_is_driven(self):
+    def test_the_body_follows_the_drive(self):
         root = self.json_of("info", self.file)["bones"][0]["name"]
         for drive, axis, sign in (("0.4,0", 2, 1), ("-0.3,0", 2, -1)):
             out = self.path("p.csv")
@@ -69,7 +69,7 @@ class Walk:
             self.assertTrue(report["valid"])
             self.assertLessEqual(report["stance_slip"], SLIP_M)
 
-    def test_it_turns_on_the_spot(self):
+    def test_it_rotates_on_the_spot(self):
         report = self.json_of("run", self.file, "--seconds", "6", "--drive", "0,0.5")
         self.assertTrue(report["valid"])
         self.assertLess(report["distance"], 0.1)
@@ -136,13 +136,13 @@ class Walk:
             element = element.find(name)
         return bundle.bone_names()[bundle.bone_of_id[element.get(path[-1])]]
 
-    def test_the_hips_turn_with_the_feet(self):
+    def test_the_hips_rotate_with_the_feet(self):
         yaws = self.yaws(self.named("hips"), "--seconds", "6", "--drive", f"{0.5 * self.speed},0")[120:]
         self.assertGreater(max(yaws), math.radians(2))
         self.assertLess(min(yaws), math.radians(-2))
         self.assertAlmostEqual(statistics.mean(yaws), 0, delta=math.radians(2))
 
-    def test_the_head_leads_a_turn_and_comes_back(self):
+    def test_the_head_leads_a_rotation_and_returns(self):
         script = write_bytes(self.path("s.txt"), f"0.5 drive {0.3 * self.speed} 0.5\n4 drive 0 0\n".encode())
         arguments = ("--seconds", "8", "--script", script)
         head, body = (self.yaws(self.named(*path), *arguments) for path in (("head_turn", "bone"), ("body",)))

@@ -8,14 +8,14 @@ import unittest
 from sbfmt_program import ROOT, ProgramTest, convert_once, example, liz, main, needs_lizard, shared
 from walks import all_walks, failures, leg_of, measure, straight
 
-# What is not met, and how far off it is.
+# Criteria that are not met, with the measured values.
 EXAMPLE = {}
 THESIS = {}
 
-# Of a caterpillar's stumps, driven beyond what they last at: they hang on a chain that goes its own way.
+# Of a caterpillar's stumps, driven beyond their speed: they are attached to a chain with its own motion.
 CRAWLS = {"stance_slip": 0.0023, "skate_ratio": 0.004, "knee_speed_step": 12.3, "body_speed_step": 0.0029}
 
-# On flat ground: files, options, and what is not met.
+# On flat ground: files, options, and criteria that they do not meet.
 OTHERS = {
     "pup": ((ROOT, "examples", "pup", "pup.glb"), (), {}),
     "calf": ((ROOT, "examples", "calf", "calf.glb"), (), {}),
@@ -27,7 +27,7 @@ OTHERS = {
     "fox": ((shared("fox"), "fox.glb"), ("--unit", "0.01"), {}),
     # All of its soft parts: its fine skin leaves the usual budget room for few, and rigid ones shift its centre of mass.
     "walkdae": ((shared("walk-dae"), "walk.dae"), ("--budget", "none"), {}),
-    # With its abdomen as its idle clip holds it, the body drops once where eight legs run up stairs.
+    # With the abdomen in the pose of its idle clip, the body drops once while eight legs run up stairs.
     "spiderglb": ((shared("spider"), "spider.glb"), (), {"stairs of a quarter leg, 3": {"body_speed_step": 0.0929}}),
     "caterpillar": ((ROOT, "examples", "caterpillar", "caterpillar.glb"), (), {
         "flat, 2": CRAWLS, "flat, 3": CRAWLS, "flat, turning on the spot": CRAWLS, "flat, a curve": CRAWLS,
@@ -37,7 +37,7 @@ OTHERS = {
 # All walks on every ground: nothing is missed.
 EVERYWHERE = ("spiderglb",)
 
-# Straight walks off flat ground: what is not met.
+# Straight walks off flat ground: criteria that they do not meet.
 OFF_FLAT_SPEEDS = (0.1, 0.3, 1, 3)
 OFF_FLAT = {
     "pup": {},
@@ -54,7 +54,7 @@ OFF_FLAT = {
 
 
 def missed_of(file, walks, known):
-    """What the walks of a file miss but for what is known."""
+    """Criteria that the walks of a file do not meet, without the known ones."""
     leg = leg_of(file)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         reports = list(pool.map(lambda walk: measure(file, walk, leg), walks))

@@ -44,7 +44,7 @@ class WrittenBundles(ProgramTest):
         self.refuses("TEXTURE_PATH", "tune", self.broken, ".sbf", "--quick", "--reference", "100", "--elements", "50", "--runs", "1", "--error", "0")
 
     def test_authored_elements_twice_or_in_each_other(self):
-        """`build` leaves authored levels as they are: it says what is wrong with them, and writes nothing."""
+        """`build` does not change authored levels: it reports their errors and writes nothing."""
         for name in ("tetrahedron_duplicate", "lattice_overlap"):
             path = os.path.join(SAMPLES, name + ".sbf")
             with self.subTest(name):

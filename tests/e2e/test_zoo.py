@@ -21,7 +21,7 @@ class Zoo(ProgramTest):
             return {row["file"]: row for row in csv.DictReader(file)}
 
     def folder_with(self, text):
-        """A folder of the koi and of what is said of it."""
+        """A folder with the koi and a file of expected results."""
         os.makedirs(self.path("fish"), exist_ok=True)
         shutil.copy(KOI, self.path("fish"))
         with open(self.path("fish/truth.tsv"), "w", encoding="utf-8") as file:

@@ -69,7 +69,7 @@ class Shapes(unittest.TestCase):
         body.ball((0.0, 0.1, -0.3), (0.012, 0.15, 0.12), melt=0.02, tilt=(35, 0, 0))
         self.assertEqual(check_surface(mesh_of(body, 0.014, "fin")), [])
 
-    def test_colours_share_their_borders(self):
+    def test_colours_have_common_borders(self):
         body, field = self.two_balls(), beyond((0.0, 0.11, 0.0), (0.0, 1.0, 0.0))
         mesh = paint(refine(mesh_of(body, 0.03, "half"), body, within((0.1, 0.2, 0.0), 0.05)), body, [("top", field)], "base")
         self.assertEqual(check_surface(mesh) + check_mirror(mesh, mesh), [])

@@ -33,7 +33,7 @@ class Crowd(unittest.TestCase):
         self.assertRegex(lines[-1], "^state [0-9a-f]{16}$")
         return [[float(number) for number in LINE.fullmatch(line).groups()] for line in lines[:-1]], lines[-1]
 
-    def test_levels_go_by_what_is_seen(self):
+    def test_levels_follow_visibility(self):
         seconds, _ = self.crowd(200, 2, 0)
         self.assertEqual(len(seconds), 2)
         for row in seconds:

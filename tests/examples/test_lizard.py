@@ -120,7 +120,7 @@ class Files(unittest.TestCase):
         self.assertEqual(self.placed.parent["Head"], "head")
         self.assertEqual(self.placed.parent["UpperArm.L"], "upper_arm.L")
 
-    def test_glb_shows_what_the_obj_holds(self):
+    def test_glb_has_the_triangles_of_the_obj(self):
         for node in self.placed.nodes:
             if "mesh" not in node:
                 continue
@@ -189,7 +189,7 @@ class Skin(unittest.TestCase):
         self.assertEqual(len(points) - len(sides) // 2 + len(faces), 2)
         self.assertEqual({(-x + 0.0, y, z) for x, y, z in points}, set(points))
 
-    def test_the_glb_holds_the_same_points_on_the_same_bones(self):
+    def test_the_glb_has_the_same_points_on_the_same_bones(self):
         document, binary = read_glb(os.path.join(LIZARD, "lizard_skin.glb"))
         points = set(read_obj(os.path.join(LIZARD, "lizard_skin.obj"))["Lizard"][0])
         rows = [p for primitive in document["meshes"][0]["primitives"]

@@ -14,7 +14,7 @@ static sbf_asset *bar(void) {
   return asset;
 }
 
-START_TEST(the_2012_dialect_goes_round)
+START_TEST(the_2012_dialect_round_trips)
 {
   sbf_asset *asset = bar();
   const char *path = harness_scratch("round.xml");
@@ -71,7 +71,7 @@ START_TEST(mjcf_reports_initial_velocities)
 }
 END_TEST
 
-START_TEST(nothing_to_write_and_unknown_endings_are_errors)
+START_TEST(empty_exports_and_unknown_extensions_are_errors)
 {
   sbf_asset *empty = sbf_asset_create(NULL);
   sbf_diagnostic error;
@@ -132,7 +132,7 @@ static void move(const sbf_asset *asset, float by_m, moved *to) {
   to->motion = (sbf_export_motion){2, 0.5, to->skin, to->heads, to->turns};
 }
 
-START_TEST(what_moves_with_its_bones_needs_no_offsets)
+START_TEST(vertices_that_move_rigidly_need_no_offsets)
 {
   /* The file with the motion has two more targets, all zero where bones carry everything. */
   sbf_asset *asset = everything();
@@ -154,7 +154,7 @@ START_TEST(what_moves_with_its_bones_needs_no_offsets)
 }
 END_TEST
 
-START_TEST(memory_that_runs_out_is_reported)
+START_TEST(failed_allocations_are_reported)
 {
   sbf_asset *bars = bar(), *all = everything();
   static const char *const names[] = {"memory.obj", "memory.tet", "memory.xml", "memory.glb", "memory.ele",
@@ -182,7 +182,7 @@ START_TEST(memory_that_runs_out_is_reported)
 }
 END_TEST
 
-START_TEST(mjcf_is_turned_and_nests_what_joints_hold)
+START_TEST(mjcf_is_rotated_and_nests_jointed_bodies)
 {
   sbf_asset *asset = bar();
   size_t size;
@@ -203,13 +203,13 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("export");
   TCase *c = tcase_create("forms");
-  tcase_add_test(c, the_2012_dialect_goes_round);
+  tcase_add_test(c, the_2012_dialect_round_trips);
   tcase_add_test(c, omissions_are_reported);
   tcase_add_test(c, mjcf_reports_initial_velocities);
-  tcase_add_test(c, nothing_to_write_and_unknown_endings_are_errors);
-  tcase_add_test(c, what_moves_with_its_bones_needs_no_offsets);
-  tcase_add_test(c, mjcf_is_turned_and_nests_what_joints_hold);
-  tcase_add_test(c, memory_that_runs_out_is_reported);
+  tcase_add_test(c, empty_exports_and_unknown_extensions_are_errors);
+  tcase_add_test(c, vertices_that_move_rigidly_need_no_offsets);
+  tcase_add_test(c, mjcf_is_rotated_and_nests_jointed_bodies);
+  tcase_add_test(c, failed_allocations_are_reported);
   suite_add_tcase(s, c);
   return s;
 }

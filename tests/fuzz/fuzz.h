@@ -1,4 +1,4 @@
-/* What every fuzz target shares. A target is one function that must bear any bytes; the same sources are
+/* Code shared by fuzz targets. A target is one function that must accept any bytes; the same sources are
  * built for libFuzzer (./run fuzz) and, with replay.c, as a test that reads the files in corpus/ again. */
 #ifndef TEST_FUZZ_H
 #define TEST_FUZZ_H

@@ -1,4 +1,4 @@
-/* What a load of either form of an asset promises, whatever the bytes. */
+/* Checks the promises of a load of either form of an asset, for any bytes. */
 #ifndef TEST_FUZZ_ASSET_H
 #define TEST_FUZZ_ASSET_H
 

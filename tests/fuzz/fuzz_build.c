@@ -9,7 +9,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (!asset) return 0;
   sbf_build_report report;
   sbf_diagnostic error = {0};
-  /* Few elements and no reference of 16,000 to calibrate by: what is to be met here are shapes, not sizes. */
+  /* Few elements and no reference of 16,000 for calibration: the inputs vary in shape, not in size. */
   const sbf_build_options options = {
       .interior = (sbf_build_interior)(size % (SBF_BUILD_INTERIOR_TETRAHEDRA + 1)),
       .elements = 200,

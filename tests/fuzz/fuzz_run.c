@@ -1,5 +1,5 @@
 /* Either form, loaded and simulated as two characters in contact. Every number read after a frame is finite,
- * whatever the file says and however the characters are driven. The bytes decide on the settings. */
+ * for any file and any drive of the characters. The bytes select the settings. */
 #include "base/hash64.h"
 #include "fuzz.h"
 #include "fuzz_asset.h"
@@ -79,7 +79,7 @@ static void make_world(simulation *s) {
   FUZZ_MUST(sbr_world_create(&world, &s->world, NULL) == SBF_OK);
   FUZZ_MUST(sbr_world_enable_body_contacts(s->world, 256, NULL) == SBF_OK);
   sbr_character_definition character = sbr_default_character_definition();
-  character.hold = !pick(s, 4);
+  character.hold_pose = !pick(s, 4);
   for (int i = 0; i < CHARACTERS; i++) {
     if (!pick(s, 3)) character.scale = pick_decades(s, -2, 2);
     if (character.scale < 0) character.scale = -character.scale;
@@ -97,11 +97,11 @@ static uint32_t count_affordable_frames(const simulation *s) {
   return frames < MAX_FRAMES ? (uint32_t)frames : MAX_FRAMES;
 }
 
-/* What a host does to a soft body; calls for what is not there are refused. */
+/* Calls of a host on a soft body; calls for missing bodies are refused. */
 static void push_body(simulation *s, sbr_character_id c, uint32_t body) {
   uint32_t vertex = pick(s, 3) ? pick(s, 20) : SBR_WHOLE_BODY;
   sbf_vec3 much = pick_vec3(s, -3, 4), little = pick_vec3(s, -1, 2);
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab hold = sbr_default_vertex_grab();
   hold.target = (sbr_double3){(double)little.x, (double)little.y, (double)little.z};
   switch (pick(s, 4)) {
   case 0:
@@ -114,7 +114,7 @@ static void push_body(simulation *s, sbr_character_id c, uint32_t body) {
     (void)sbr_character_set_soft_velocity(s->world, c, body, little, much, NULL);
     break;
   default:
-    (void)sbr_character_hold_vertex(s->world, c, body, vertex, &hold, NULL);
+    (void)sbr_character_grab_vertex(s->world, c, body, vertex, &hold, NULL);
     break;
   }
 }

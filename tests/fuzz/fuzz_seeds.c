@@ -64,7 +64,7 @@ static void put_outlined(const char *folder, const sbf_asset *asset) {
   sbf_buffer_free(&bytes);
 }
 
-/* What build has most to do with: a closed section on a bone, and a sheet that nothing holds. */
+/* The inputs with the most work for a build: a closed section on a bone, and an unpinned sheet. */
 static sbf_asset *bodies_to_build(void) {
   sbf_asset *asset = sbf_asset_create(NULL);
   FUZZ_MUST(asset);
@@ -122,7 +122,7 @@ static void put_stream(const char *folder) {
   free(stream.at);
 }
 
-/* ---- The words of XML, for libFuzzer to put together: what it would not come upon by chance ---- */
+/* ---- The words of XML, as a dictionary for libFuzzer ---- */
 
 static void put_words_of(const sbfi_element *element, FILE *to) {
   for (uint32_t i = 0; i < element->field_count; i++) {

@@ -51,7 +51,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sbf_asset *asset = NULL;
     sbf_convert_options options = {.no_gait = true};
     sbf_status status = sbfi_convert_scenes(&scene, &scene, &options, &asset, &error);
-    if (asset) asset->version = SBF_FORMAT_VERSION; /* writers state the version that has what they write */
+    if (asset)
+      asset->version = SBF_FORMAT_VERSION; /* writers state the lowest version with all written parts */
     fuzz_check_load(status, asset, &error, sbf_packed_save_memory, sbf_packed_load_memory);
   }
   sbfi_scene_free(&scene);

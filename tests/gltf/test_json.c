@@ -38,7 +38,7 @@ START_TEST(test_values_are_read)
 }
 END_TEST
 
-START_TEST(test_what_is_not_json_is_refused_at_its_place)
+START_TEST(test_invalid_json_is_refused_at_its_position)
 {
   static const struct {
     const char *text;
@@ -111,7 +111,7 @@ static Suite *json_suite(void) {
   Suite *suite = suite_create("json");
   TCase *c = tcase_create("json");
   tcase_add_test(c, test_values_are_read);
-  tcase_add_test(c, test_what_is_not_json_is_refused_at_its_place);
+  tcase_add_test(c, test_invalid_json_is_refused_at_its_position);
   tcase_add_test(c, test_depth_and_names_are_bounded);
   tcase_add_test(c, test_every_failing_allocation_is_reported);
   suite_add_tcase(suite, c);

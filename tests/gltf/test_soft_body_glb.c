@@ -1,4 +1,4 @@
-/* Characters as binary glTF: what is written comes back, and what is damaged is refused. */
+/* Characters as binary glTF: written files read back equal, and damaged files are refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static char *small_file(size_t *size) {
   return bytes;
 }
 
-START_TEST(test_every_field_comes_back)
+START_TEST(test_every_field_round_trips)
 {
   for (uint64_t seed = 0; seed < 6; seed++)
     for (int store = 0; store < 2; store++) {
@@ -67,7 +67,7 @@ START_TEST(test_equal_assets_give_equal_bytes)
 }
 END_TEST
 
-START_TEST(test_damage_is_refused_or_keeps_the_promises)
+START_TEST(test_damaged_files_are_refused_or_valid)
 {
   size_t size;
   char *bytes = small_file(&size);
@@ -182,9 +182,9 @@ static Suite *soft_body_glb_suite(void) {
   Suite *suite = suite_create("soft_body_glb");
   TCase *c = tcase_create("soft_body_glb");
   tcase_set_timeout(c, 300);
-  tcase_add_test(c, test_every_field_comes_back);
+  tcase_add_test(c, test_every_field_round_trips);
   tcase_add_test(c, test_equal_assets_give_equal_bytes);
-  tcase_add_test(c, test_damage_is_refused_or_keeps_the_promises);
+  tcase_add_test(c, test_damaged_files_are_refused_or_valid);
   tcase_add_test(c, test_every_shorter_file_is_refused);
   tcase_add_test(c, test_faults_have_their_codes);
   tcase_add_test(c, test_every_failing_allocation_is_reported);

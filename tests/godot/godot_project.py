@@ -68,7 +68,7 @@ class Godot:
         self.write("project.godot", PROJECT.format(engine=engine) + more)
 
     def provide_program(self):
-        """The add-on's program, with what it rests on beside it: another system has other versions of that."""
+        """The add-on's program with its libraries beside it, because another system has other versions."""
         folder = os.path.join(self.folder, "addons", "sbfmt", "bin")
         program = os.path.join(folder, "sbfmt")
         for library in needed_libraries(program) if self.root else []:
@@ -92,7 +92,7 @@ class Godot:
         return [*first, self.godot, "--path", self.inside, *words]
 
     def run(self, *words, **settings):
-        """A finished process, with what it said in one text."""
+        """A finished process, with its output in one text."""
         return self.finished(self.command(*words), **settings)
 
     def run_packed(self, *words):
@@ -106,7 +106,7 @@ class Godot:
                               timeout=550)
 
     def passes(self, script, *words, allowed=(), display="", expected_text=""):
-        """Whether a script of this folder ends with status 0, Godot complains of nothing but what is `allowed`, and it says once what is to
+        """Whether a script of this folder ends with status 0, Godot reports only errors that are `allowed`, and it prints once the text that is to
         be `expected_text`. With a display it draws, by OpenGL on the processor."""
         self.copy(os.path.join(HERE, "checks.gd"), os.path.join(HERE, f"{script}.gd"))
         seen = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if display else ["--headless"]

@@ -39,7 +39,7 @@ def packed(program, folder):
 
 
 def cube(program, folder, cells=6, side=0.3):
-    """A closed cube of flesh that nothing holds, of 27 kg, standing on y = 0."""
+    """A closed, unpinned cube of flesh, of 27 kg, standing on y = 0."""
     points, faces = {}, []
     def point(*at):
         return points.setdefault(at, len(points) + 1)

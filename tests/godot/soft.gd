@@ -58,14 +58,14 @@ func _physics_process(_delta: float) -> bool:
 			vertex = cube.get_nearest_vertex(0, start + Vector3(0, 5, 0))
 			check(vertex >= 0, "nearest vertex")
 			target = start + Vector3(0.5, 0.5, 0)
-			cube.hold_vertex(0, vertex, target)
+			cube.grab_vertex(0, vertex, target)
 		27:
-			check(cube.get_hold_force(0, vertex).length() > 1, "force of the hold")
+			check(cube.get_grab_force(0, vertex).length() > 1, "force of the hold")
 		200:
 			check(middle_of(cube).distance_to(target) < 0.35, "dragged to %s, not %s" % [middle_of(cube), target])
 			check(cube.release_vertex(0, vertex), "release")
 			check(not cube.release_vertex(0, vertex), "release twice")
-			check(cube.get_hold_force(0, vertex) == Vector3.ZERO, "no force after it")
+			check(cube.get_grab_force(0, vertex) == Vector3.ZERO, "no force after it")
 			var pins := lizard.get_pin_reactions(0)
 			check(pins.size() > 0 and pins.size() % 2 == 0, "pins: %d" % pins.size())
 			check(cube.get_pin_reactions(0).size() == 0, "pins of what is loose")

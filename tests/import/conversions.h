@@ -24,7 +24,7 @@ void converted_free(converted *c);
 uint32_t converted_count(const converted *c, sbf_code code);
 const sbf_diagnostic *converted_note(const converted *c, sbf_code code);
 
-/* What has a name; the test fails where nothing has. */
+/* The item with a name; the test fails if there is none. */
 int32_t bone_named(const sbf_asset *a, const char *name);
 const sbf_soft_body *body_named(const sbf_asset *a, const char *name);
 const sbf_render_mesh *mesh_named(const sbf_asset *a, const char *name);

@@ -5,7 +5,7 @@
 #include "import/scene/stream_format.h"
 #include "scene_of_stream.h"
 
-START_TEST(what_moves_helpers_becomes_keys_of_the_node)
+START_TEST(motion_of_helpers_becomes_keys_of_the_node)
 {
   stream_builder s = {0};
   stream_everything(&s);
@@ -82,7 +82,7 @@ END_TEST
 static Suite *assemble_clips_suite(void) {
   Suite *suite = suite_create("assemble_clips");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, what_moves_helpers_becomes_keys_of_the_node);
+  tcase_add_test(tests, motion_of_helpers_becomes_keys_of_the_node);
   tcase_add_test(tests, keys_ascend_and_begin_at_zero);
   suite_add_tcase(suite, tests);
   return suite;

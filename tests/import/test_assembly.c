@@ -26,7 +26,7 @@ static void finish(stream_builder *s) {
   stream_end(s);
 }
 
-START_TEST(corners_at_one_place_are_one_point)
+START_TEST(corners_at_one_position_are_one_point)
 {
   static const float square[] = SQUARE(0, 0, 0);
   stream_builder s = {0};
@@ -47,7 +47,7 @@ START_TEST(corners_at_one_place_are_one_point)
 }
 END_TEST
 
-START_TEST(zero_has_no_sign_but_the_last_bit_counts)
+START_TEST(zeros_are_equal_and_the_last_bit_differs)
 {
   static const float torn[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, -0.0f, 0, 0, 1.0000001f, 0, 0, 0, 1, -0.0f};
   stream_builder s = {0};
@@ -169,7 +169,7 @@ static void put_triangles_head(stream_builder *s, const float *positions, uint32
 }
 
 /* Vertices 0 and 3, and 2 and 4, lie at one place; 0 and 3 move differently. */
-START_TEST(points_that_move_differently_stay_apart)
+START_TEST(points_that_move_differently_stay_separate)
 {
   static const float square[] = SQUARE(0, 0, 0);
   static const uint32_t upper[] = {0, 2, 4, 4}, lower[] = {3, 2, 4, 1};
@@ -216,7 +216,7 @@ START_TEST(points_that_move_differently_stay_apart)
 }
 END_TEST
 
-START_TEST(shapes_keep_points_apart_too)
+START_TEST(points_of_different_shape_keys_stay_separate)
 {
   static const float square[] = SQUARE(0, 0, 0);
   float moved[18];
@@ -330,7 +330,7 @@ START_TEST(joints_are_the_bones_of_a_gltf)
 }
 END_TEST
 
-START_TEST(elsewhere_bones_are_what_joins_and_follows_joints)
+START_TEST(other_formats_find_bones_by_joints_and_their_children)
 {
   sbfi_scene scene;
   bones_of("md5mesh", &scene);
@@ -341,7 +341,7 @@ START_TEST(elsewhere_bones_are_what_joins_and_follows_joints)
 }
 END_TEST
 
-START_TEST(pivot_helpers_are_folded_into_what_they_move)
+START_TEST(pivot_helpers_are_merged_into_their_node)
 {
   static const float square[] = SQUARE(0, 0, 0);
   stream_builder s = {0};
@@ -405,7 +405,7 @@ START_TEST(unit_and_axes_of_an_fbx)
 }
 END_TEST
 
-START_TEST(embedded_images_are_taken_over)
+START_TEST(embedded_images_are_imported)
 {
   static const float square[] = SQUARE(0, 0, 0);
   const char *names[] = {"*0", "C:\\textures\\skin.png", "*1", "*7"};
@@ -450,7 +450,7 @@ static sbf_status answer(stream_builder *s, const char *format, sbf_diagnostic *
   return status;
 }
 
-START_TEST(invented_meshes_are_left_out)
+START_TEST(generated_meshes_are_left_out)
 {
   static const float square[] = SQUARE(0, 0, 0);
   sbf_diagnostic error = {0};
@@ -477,7 +477,7 @@ START_TEST(invented_meshes_are_left_out)
 END_TEST
 
 /* Scales of 1e30 in a chain: finite each, their product is not. */
-START_TEST(transforms_that_multiply_beyond_measure_are_refused)
+START_TEST(transforms_that_overflow_are_refused)
 {
   sbf_diagnostic error = {0};
   stream_builder s = {0};
@@ -532,22 +532,22 @@ END_TEST
 static Suite *assembly_suite(void) {
   Suite *suite = suite_create("assembly");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, corners_at_one_place_are_one_point);
+  tcase_add_test(tests, corners_at_one_position_are_one_point);
   tcase_add_test(tests, limits_are_kept_where_they_bound_something);
-  tcase_add_test(tests, zero_has_no_sign_but_the_last_bit_counts);
+  tcase_add_test(tests, zeros_are_equal_and_the_last_bit_differs);
   tcase_add_test(tests, parts_of_a_node_become_one_mesh);
   tcase_add_test(tests, nodes_are_never_welded);
   tcase_add_test(tests, polygons_keep_their_sides_and_lines_are_left_out);
-  tcase_add_test(tests, points_that_move_differently_stay_apart);
-  tcase_add_test(tests, shapes_keep_points_apart_too);
+  tcase_add_test(tests, points_that_move_differently_stay_separate);
+  tcase_add_test(tests, points_of_different_shape_keys_stay_separate);
   tcase_add_test(tests, a_name_means_the_bone);
   tcase_add_test(tests, joints_are_the_bones_of_a_gltf);
-  tcase_add_test(tests, elsewhere_bones_are_what_joins_and_follows_joints);
-  tcase_add_test(tests, pivot_helpers_are_folded_into_what_they_move);
+  tcase_add_test(tests, other_formats_find_bones_by_joints_and_their_children);
+  tcase_add_test(tests, pivot_helpers_are_merged_into_their_node);
   tcase_add_test(tests, unit_and_axes_of_an_fbx);
-  tcase_add_test(tests, embedded_images_are_taken_over);
-  tcase_add_test(tests, invented_meshes_are_left_out);
-  tcase_add_test(tests, transforms_that_multiply_beyond_measure_are_refused);
+  tcase_add_test(tests, embedded_images_are_imported);
+  tcase_add_test(tests, generated_meshes_are_left_out);
+  tcase_add_test(tests, transforms_that_overflow_are_refused);
   suite_add_tcase(suite, tests);
   return suite;
 }

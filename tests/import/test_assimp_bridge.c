@@ -40,7 +40,7 @@ static const char *some_file(void) {
   return path;
 }
 
-START_TEST(a_helper_that_is_not_there)
+START_TEST(a_missing_helper)
 {
   sbfi_scene scene;
   sbf_diagnostic error;
@@ -85,7 +85,7 @@ static const struct {
     {"echo nonsense", SBF_CODE_IMPORT_STREAM, SBF_FAILED},
 };
 
-START_TEST(however_the_helper_ends)
+START_TEST(any_exit_of_the_helper)
 {
   sbfi_scene scene;
   sbf_diagnostic error;
@@ -96,7 +96,7 @@ START_TEST(however_the_helper_ends)
 }
 END_TEST
 
-START_TEST(files_that_cannot_be_read)
+START_TEST(unreadable_files)
 {
   sbfi_scene scene;
   sbf_diagnostic error;
@@ -182,7 +182,7 @@ static const char *const section_bones[][2] = {{"Head", "Head"}, {"Body.001", "B
     {"Leg1.R", "Leg.001.R"}, {"Leg2.L", "Leg.002.L"}, {"Leg2.R", "Leg.002.R"}, {"Foot.L", "Leg.003.L"},
     {"Foot.R", "Leg.003.R"}, {"Tail1", "Tail.001"}, {"Tail2", "Tail.002"}, {"Tail3", "Tail.003"}};
 
-START_TEST(sections_hang_on_the_bones_of_the_table)
+START_TEST(sections_are_attached_to_the_bones_of_the_table)
 {
   static const char *const files[] = {"lizard/liz.fbx", "lizard/lizart.fbx", "lizard/lizart.glb"};
   sbfi_scene scene;
@@ -291,7 +291,7 @@ START_TEST(welded_surfaces_are_closed)
 }
 END_TEST
 
-START_TEST(images_come_along)
+START_TEST(images_are_imported)
 {
   sbfi_scene scene;
   if (!read_shared(&scene, "fox/fox.glb")) return;
@@ -304,7 +304,7 @@ START_TEST(images_come_along)
 }
 END_TEST
 
-/* The bind transforms put every point where its weights hold it at rest, of a file saved at rest. */
+/* In a file saved at rest, the bind transforms put every point at its skinned rest position. */
 START_TEST(skins_fit_their_joints)
 {
   static const char *const files[] = {
@@ -345,7 +345,7 @@ START_TEST(clips_have_their_lengths)
 }
 END_TEST
 
-START_TEST(bad_files_end_in_a_clear_error)
+START_TEST(bad_files_give_a_clear_error)
 {
   static const struct {
     const char *file;
@@ -359,7 +359,7 @@ START_TEST(bad_files_end_in_a_clear_error)
   sbfi_scene scene;
   sbf_diagnostic error;
   ck_assert_int_eq(read_with(&scene, path, NULL, &error), SBF_BAD_INPUT);
-  /* What a write beyond its memory does to assimp depends on what lies there. */
+  /* The effect of a write beyond assimp's memory depends on its contents. */
   bool unsure = _i == 0 && error.code == SBF_CODE_IMPORT_EMPTY;
   ck_assert_msg(
       unsure || error.code == (int32_t)bad[_i].code, "%s: %d %s", path, (int)error.code, error.message);
@@ -393,19 +393,19 @@ END_TEST
 static Suite *assimp_bridge_suite(void) {
   Suite *suite = suite_create("assimp_bridge");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_helper_that_is_not_there);
+  tcase_add_test(tests, a_missing_helper);
   tcase_add_test(tests, the_environment_names_a_helper);
-  tcase_add_loop_test(tests, however_the_helper_ends, 0, sizeof ends / sizeof *ends);
-  tcase_add_test(tests, files_that_cannot_be_read);
+  tcase_add_loop_test(tests, any_exit_of_the_helper, 0, sizeof ends / sizeof *ends);
+  tcase_add_test(tests, unreadable_files);
   tcase_add_loop_test(tests, real_files_give_the_known_counts, 0, sizeof knowns / sizeof *knowns);
-  tcase_add_loop_test(tests, sections_hang_on_the_bones_of_the_table, 0, 3);
+  tcase_add_loop_test(tests, sections_are_attached_to_the_bones_of_the_table, 0, 3);
   tcase_add_loop_test(tests, the_lizard_is_in_metres, 0, 2);
   tcase_add_test(tests, joints_are_never_sections);
   tcase_add_loop_test(tests, welded_surfaces_are_closed, 0, 5);
-  tcase_add_test(tests, images_come_along);
+  tcase_add_test(tests, images_are_imported);
   tcase_add_loop_test(tests, skins_fit_their_joints, 0, 3);
   tcase_add_loop_test(tests, clips_have_their_lengths, 0, 4);
-  tcase_add_loop_test(tests, bad_files_end_in_a_clear_error, 0, 4);
+  tcase_add_loop_test(tests, bad_files_give_a_clear_error, 0, 4);
   tcase_add_loop_test(tests, a_real_file_cut_off, 0, 3);
   suite_add_tcase(suite, tests);
   return suite;

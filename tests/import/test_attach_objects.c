@@ -1,4 +1,4 @@
-/* Objects that lie loose beside a skeleton move with what they touch. */
+/* Unattached objects beside a skeleton follow the objects that they touch. */
 #include "conversions.h"
 
 enum { HULL_BONE, ARM_BONE, BONES };
@@ -30,7 +30,7 @@ static void add_box(loose_scene *s, const char *name, double x, double y, double
 static void convert(loose_scene *s, converted *c) {
   scene_end(&s->scene);
   static const char *const all[] = {"*"};
-  const sbf_convert_options options = {.no_gait = true, .soft = all, .soft_count = 1};
+  const sbf_convert_options options = {.no_gait = true, .softness.soft = all, .softness.soft_count = 1};
   converted_scene(c, &s->scene, &s->scene, &options);
 }
 
@@ -45,7 +45,7 @@ static int32_t carrier(const converted *c, const char *object) {
   return bone;
 }
 
-START_TEST(what_touches_the_skin_moves_with_its_bone)
+START_TEST(objects_in_contact_with_the_skin_follow_its_bone)
 {
   loose_scene s;
   converted c;
@@ -62,8 +62,8 @@ START_TEST(what_touches_the_skin_moves_with_its_bone)
 }
 END_TEST
 
-/* In whatever order they come. */
-START_TEST(what_touches_such_an_object_moves_with_it)
+/* In any order. */
+START_TEST(objects_in_contact_with_attached_objects_follow_them)
 {
   loose_scene s;
   converted c;
@@ -77,14 +77,14 @@ START_TEST(what_touches_such_an_object_moves_with_it)
 }
 END_TEST
 
-START_TEST(what_touches_nothing_stays_loose)
+START_TEST(objects_without_contact_stay_unattached)
 {
   loose_scene s;
   converted c;
   begin(&s);
   add_box(&s, "ball", 0, 3.2, 0, 0.5);    /* a hand's breadth above */
-  add_box(&s, "plinth", 0, -0.5, 0, 0.5); /* what it stands on */
-  add_box(&s, "house", 0, 4, 0, 5);       /* what it is in */
+  add_box(&s, "plinth", 0, -0.5, 0, 0.5); /* below it */
+  add_box(&s, "house", 0, 4, 0, 5);       /* around it */
   convert(&s, &c);
   ck_assert_int_eq(carrier(&c, "ball"), SBF_NONE);
   ck_assert_int_eq(carrier(&c, "plinth"), SBF_NONE);
@@ -97,9 +97,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("attach_objects");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, what_touches_the_skin_moves_with_its_bone);
-  tcase_add_test(tests, what_touches_such_an_object_moves_with_it);
-  tcase_add_test(tests, what_touches_nothing_stays_loose);
+  tcase_add_test(tests, objects_in_contact_with_the_skin_follow_its_bone);
+  tcase_add_test(tests, objects_in_contact_with_attached_objects_follow_them);
+  tcase_add_test(tests, objects_without_contact_stay_unattached);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -46,7 +46,7 @@ START_TEST(a_chain_becomes_one_transform)
 END_TEST
 
 /* A track with keys for some parts only keeps the rest of its transform at rest. */
-START_TEST(what_has_no_keys_rests)
+START_TEST(tracks_without_keys_stay_at_rest)
 {
   static const float sizes[] = {1, 1, 1, 3, 3, 3};
   sbfi_link link = {.local = {{{0, -1, 0, 5}, {1, 0, 0, 6}, {0, 0, 1, 7}, {0, 0, 0, 1}}}};
@@ -119,7 +119,7 @@ static Suite *baked_keys_suite(void) {
   TCase *tests = tcase_create("all");
   tcase_add_checked_fixture(tests, begin, end);
   tcase_add_test(tests, a_chain_becomes_one_transform);
-  tcase_add_test(tests, what_has_no_keys_rests);
+  tcase_add_test(tests, tracks_without_keys_stay_at_rest);
   tcase_add_test(tests, rotations_follow_on);
   tcase_add_test(tests, a_link_may_be_undone);
   tcase_add_test(tests, no_keys_no_tracks);

@@ -16,7 +16,7 @@ static sbfi_matrix moved(double x, double y, double z) {
 
 /* A leg raised since it was bound: hips (no weights), thigh and shin (joints), foot_end, a boot on the shin.
  */
-START_TEST(bones_go_back_to_where_they_were_bound)
+START_TEST(bones_return_to_the_bind_pose)
 {
   sbfi_scene_node nodes[] = {{.name = "body", .parent = -1, .local = moved(10, 0, 0)},
       {.name = "hips", .parent = -1, .local = moved(1, 1, 0), .is_bone = true},
@@ -45,7 +45,7 @@ START_TEST(bones_go_back_to_where_they_were_bound)
 END_TEST
 
 /* One joint alone says where its mesh is, turned or not; of two, one that turned since is in another pose. */
-START_TEST(a_turn_alone_is_another_pose)
+START_TEST(a_rotation_alone_is_another_pose)
 {
   static const sbfi_matrix turn = {{{0, -1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
   sbfi_scene_node nodes[] = {{.name = "skin", .parent = -1, .local = moved(3, 0, 0)},
@@ -100,7 +100,7 @@ START_TEST(real_files_saved_at_rest_or_not)
 END_TEST
 
 /* The tracks a clip did not have are filled with what the nodes were in the file. */
-START_TEST(clips_show_what_they_showed)
+START_TEST(clips_keep_their_motion)
 {
   const char *path = harness_shared("sausage/sausage_blender_7400.fbx");
   if (!path) return;
@@ -147,9 +147,9 @@ END_TEST
 static Suite *bind_pose_suite(void) {
   Suite *suite = suite_create("bind_pose");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, bones_go_back_to_where_they_were_bound);
-  tcase_add_test(tests, a_turn_alone_is_another_pose);
-  tcase_add_test(tests, clips_show_what_they_showed);
+  tcase_add_test(tests, bones_return_to_the_bind_pose);
+  tcase_add_test(tests, a_rotation_alone_is_another_pose);
+  tcase_add_test(tests, clips_keep_their_motion);
   tcase_add_test(tests, memory_may_run_out);
   tcase_add_loop_test(tests, real_files_saved_at_rest_or_not, 0, 8);
   suite_add_tcase(suite, tests);

@@ -111,7 +111,7 @@ END_TEST
 
 /* --- Half a character -------------------------------------------------------------------------------- */
 
-START_TEST(without_a_rig_bodies_hang_on_nothing)
+START_TEST(bodies_without_a_rig_are_unattached)
 {
   converted c;
   converted_file(&c, harness_source("examples/lizard/lizard.obj"), NULL);
@@ -162,7 +162,7 @@ static sbf_status refused(const char *path, const sbf_convert_options *options, 
   return status;
 }
 
-START_TEST(calls_that_are_wrong)
+START_TEST(wrong_calls)
 {
   char lizard[1024];
   snprintf(lizard, sizeof lizard, "%s", harness_source("examples/lizard/lizard.obj"));
@@ -417,9 +417,9 @@ int main(void) {
   tcase_add_test(tests, the_lizard_of_obj_and_rig);
   tcase_add_test(tests, the_lizard_of_one_file);
   tcase_add_test(tests, units_are_those_of_the_file);
-  tcase_add_test(tests, without_a_rig_bodies_hang_on_nothing);
+  tcase_add_test(tests, bodies_without_a_rig_are_unattached);
   tcase_add_test(tests, named_objects_and_skins_mix);
-  tcase_add_test(tests, calls_that_are_wrong);
+  tcase_add_test(tests, wrong_calls);
   tcase_add_test(tests, the_same_input_gives_the_same_bytes);
   tcase_add_test(tests, every_allocation_may_fail);
   tcase_add_test(tests, every_allocation_of_a_file_may_fail);

@@ -245,7 +245,7 @@ static const known_clip known_clips[] = {
     {"mocap/cmu_01_01.bvh", "Motion", 1, 22.92491, 2752, "Hips", 8.8787, 17.8124, 38.5426, false},
 };
 
-START_TEST(real_clips_say_what_their_files_say)
+START_TEST(real_clips_match_their_files)
 {
   const known_clip *known = &known_clips[_i];
   const char *path = harness_shared(known->file);
@@ -278,8 +278,7 @@ int main(void) {
   tcase_add_test(tests, tracks_are_as_short_as_they_can_be);
   tcase_add_test(tests, without_bones_nothing_moves);
   tcase_add_test(tests, unreadable_keys_are_left_out);
-  tcase_add_loop_test(
-      tests, real_clips_say_what_their_files_say, 0, sizeof known_clips / sizeof *known_clips);
+  tcase_add_loop_test(tests, real_clips_match_their_files, 0, sizeof known_clips / sizeof *known_clips);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

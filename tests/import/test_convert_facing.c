@@ -111,7 +111,7 @@ static void make_quadruped(sbfi_scene *s, bool head_ahead) {
   scene_end(s);
 }
 
-START_TEST(head_behind_all_feet_turns_a_quadruped)
+START_TEST(a_head_behind_all_feet_reverses_a_quadruped)
 {
   for (int ahead = 0; ahead < 2; ahead++) {
     sbfi_scene scene;
@@ -130,7 +130,7 @@ START_TEST(head_behind_all_feet_turns_a_quadruped)
 END_TEST
 
 /* Without a gait nobody asks where ahead is. */
-START_TEST(what_need_not_walk_stays)
+START_TEST(without_a_gait_nothing_is_rotated)
 {
   sbfi_scene scene;
   converted c;
@@ -162,8 +162,8 @@ int main(void) {
   Suite *suite = suite_create("convert_facing");
   TCase *tests = tcase_create("convert_facing");
   tcase_add_test(tests, characters_face_z);
-  tcase_add_test(tests, head_behind_all_feet_turns_a_quadruped);
-  tcase_add_test(tests, what_need_not_walk_stays);
+  tcase_add_test(tests, a_head_behind_all_feet_reverses_a_quadruped);
+  tcase_add_test(tests, without_a_gait_nothing_is_rotated);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

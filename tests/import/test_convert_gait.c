@@ -63,7 +63,7 @@ START_TEST(rigs_without_legs_are_reported)
 }
 END_TEST
 
-START_TEST(ids_that_are_taken_stay_their_owners)
+START_TEST(used_ids_are_not_reassigned)
 {
   converted c;
   sbf_convert_options options = {.no_gait = true};
@@ -82,7 +82,7 @@ int main(void) {
   TCase *tests = tcase_create("convert_gait");
   tcase_add_loop_test(tests, a_gait_proposed_later_is_the_same, 0, 2);
   tcase_add_test(tests, rigs_without_legs_are_reported);
-  tcase_add_test(tests, ids_that_are_taken_stay_their_owners);
+  tcase_add_test(tests, used_ids_are_not_reassigned);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

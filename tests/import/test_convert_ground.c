@@ -60,7 +60,7 @@ START_TEST(a_mesh_too_far_from_the_origin_is_reported)
 END_TEST
 
 /* A sole that is a little off, as on a soft floor, is no reason to move a file's vertices. */
-START_TEST(standing_characters_stay)
+START_TEST(standing_characters_are_not_moved)
 {
   sbfi_scene scene;
   converted c;
@@ -73,7 +73,7 @@ START_TEST(standing_characters_stay)
 }
 END_TEST
 
-START_TEST(what_does_not_walk_stays)
+START_TEST(objects_that_do_not_walk_are_not_moved)
 {
   sbfi_scene scene;
   converted c;
@@ -92,8 +92,8 @@ START_TEST(what_does_not_walk_stays)
 }
 END_TEST
 
-/* Clips go along, unless they have the character on the ground already. */
-START_TEST(clips_go_along)
+/* Clips are moved too, unless they already have the character on the ground. */
+START_TEST(clips_move_with_the_skeleton)
 {
   static const float times[2] = {0, 1};
   static const sbf_vec3 drawn[2] = {{0, 0.25f, 0}, {0, 0.5f, 1}}, recorded[2] = {{0, 1.125f, 0}, {0, 1, 1}};
@@ -160,7 +160,7 @@ START_TEST(characters_beside_the_origin_are_moved_there)
 END_TEST
 
 /* Bones on one side of their root, and what shall have no gait. */
-START_TEST(what_has_no_middle_stays)
+START_TEST(asymmetric_skeletons_are_not_moved)
 {
   sbf_convert_options options = {.no_gait = true};
   sbfi_scene scene;
@@ -186,12 +186,12 @@ int main(void) {
   Suite *suite = suite_create("convert_ground");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, walkers_are_moved_onto_the_ground);
-  tcase_add_test(tests, standing_characters_stay);
+  tcase_add_test(tests, standing_characters_are_not_moved);
   tcase_add_loop_test(tests, a_mesh_too_far_from_the_origin_is_reported, 0, 6);
-  tcase_add_test(tests, what_does_not_walk_stays);
-  tcase_add_test(tests, clips_go_along);
+  tcase_add_test(tests, objects_that_do_not_walk_are_not_moved);
+  tcase_add_test(tests, clips_move_with_the_skeleton);
   tcase_add_test(tests, characters_beside_the_origin_are_moved_there);
-  tcase_add_test(tests, what_has_no_middle_stays);
+  tcase_add_test(tests, asymmetric_skeletons_are_not_moved);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -95,7 +95,7 @@ START_TEST(joints_without_limits_are_proposals)
 END_TEST
 
 /* The build gives these bodies their hulls, of all their sections, and makes no others. */
-START_TEST(the_build_gives_them_hulls)
+START_TEST(the_build_adds_their_hulls)
 {
   sbfi_scene scene;
   converted c;
@@ -170,7 +170,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, bones_with_sections_become_bodies_and_joints);
   tcase_add_test(tests, joints_without_limits_are_proposals);
-  tcase_add_test(tests, the_build_gives_them_hulls);
+  tcase_add_test(tests, the_build_adds_their_hulls);
   tcase_add_test(tests, the_example_lizard_has_its_limits);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

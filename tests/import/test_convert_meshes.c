@@ -36,7 +36,7 @@ static void check_corners(const sbf_render_mesh *mesh, sbf_vec3 middle) {
 }
 
 /* A transform that mirrors and stretches: faces still look outwards, attributes stay at their corners. */
-START_TEST(mirrors_turn_polygons)
+START_TEST(mirroring_reverses_polygons)
 {
   sbfi_scene scene;
   scene_begin(&scene);
@@ -129,7 +129,7 @@ START_TEST(objects_without_area_are_left_out)
 END_TEST
 
 /* Without a face there is no inside to be sure of. */
-START_TEST(open_surfaces_stay_as_they_are)
+START_TEST(open_surfaces_are_unchanged)
 {
   sbfi_scene scene;
   scene_begin(&scene);
@@ -263,7 +263,7 @@ START_TEST(skins_are_normalised)
 END_TEST
 
 /* A section inside a skin is simulated but not drawn; one that sticks out is. */
-START_TEST(covered_sections_are_not_seen)
+START_TEST(covered_sections_are_not_rendered)
 {
   static const uint32_t all_first[8] = {0};
   sbfi_scene scene;
@@ -290,7 +290,7 @@ START_TEST(covered_sections_are_not_seen)
 END_TEST
 
 /* A cape that lies close to the back, and legs under a skirt that is open below, show: each is drawn. */
-START_TEST(what_shows_beside_a_skin_is_drawn)
+START_TEST(visible_meshes_beside_a_skin_are_rendered)
 {
   static const uint32_t all_first[8] = {0};
   static const struct { double half, y, z; } worn[] = {{0.9, 0, -1.91}, {0.9, 0, 0.12}, {0.7, 0, -0.2}};
@@ -347,15 +347,15 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("convert_meshes");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, mirrors_turn_polygons);
+  tcase_add_test(tests, mirroring_reverses_polygons);
   tcase_add_test(tests, closed_surfaces_are_turned_outwards);
   tcase_add_test(tests, objects_without_area_are_left_out);
-  tcase_add_test(tests, open_surfaces_stay_as_they_are);
+  tcase_add_test(tests, open_surfaces_are_unchanged);
   tcase_add_test(tests, slots_are_the_materials_in_use);
   tcase_add_test(tests, uvs_that_leave_corners_out_are_dropped);
   tcase_add_test(tests, skins_are_normalised);
-  tcase_add_test(tests, covered_sections_are_not_seen);
-  tcase_add_test(tests, what_shows_beside_a_skin_is_drawn);
+  tcase_add_test(tests, covered_sections_are_not_rendered);
+  tcase_add_test(tests, visible_meshes_beside_a_skin_are_rendered);
   tcase_add_test(tests, shapes_move_with_the_mesh);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

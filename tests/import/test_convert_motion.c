@@ -83,7 +83,7 @@ static void expect(const double *is, double x, double y, double z) {
       is[1], is[2], x, y, z);
 }
 
-START_TEST(a_leg_swings_and_the_hips_go_half_as_far)
+START_TEST(the_hips_move_half_as_far_as_a_leg)
 {
   sbf_asset *asset = figure();
   notes n = {0};
@@ -106,7 +106,7 @@ START_TEST(a_leg_swings_and_the_hips_go_half_as_far)
   direction(asset, 0.5f, 2, to, position);
   expect(to, 0, -sqrt(0.5), sqrt(0.5));
   direction(asset, 0.5f, 3, to, position);
-  expect(to, 0, 1, 0); /* goes along */
+  expect(to, 0, 1, 0); /* follows its parent */
   sbf_asset_free(asset);
 }
 END_TEST
@@ -124,7 +124,7 @@ START_TEST(a_second_clip_has_an_id_of_its_own)
 }
 END_TEST
 
-START_TEST(what_cannot_be_carried_over_is_refused)
+START_TEST(motions_that_cannot_be_retargeted_are_refused)
 {
   sbf_asset *asset = figure(), *empty = sbf_asset_create(NULL);
   sbf_diagnostic error;
@@ -149,9 +149,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("convert_motion");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_leg_swings_and_the_hips_go_half_as_far);
+  tcase_add_test(tests, the_hips_move_half_as_far_as_a_leg);
   tcase_add_test(tests, a_second_clip_has_an_id_of_its_own);
-  tcase_add_test(tests, what_cannot_be_carried_over_is_refused);
+  tcase_add_test(tests, motions_that_cannot_be_retargeted_are_refused);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -38,7 +38,7 @@ START_TEST(weights_of_a_bone_pin_to_another)
 {
   converted c;
   const sbf_convert_pin pin = {"tip", "root"};
-  converted_scene(&c, &scene, &scene, &(sbf_convert_options){.pins = &pin, .pin_count = 1});
+  converted_scene(&c, &scene, &scene, &(sbf_convert_options){.pinning.pins = &pin, .pinning.pin_count = 1});
   const sbf_soft_body *body = body_named(c.asset, "Cape");
   ck_assert_int_eq(body->bone, SBF_NONE);
   ck_assert_uint_eq(body->pins.count, 1);
@@ -72,8 +72,11 @@ START_TEST(a_group_without_a_bone_pins_to_the_world)
   converted c;
   const sbf_convert_pin pins[] = {{"cloth pins", NULL}, {"root", NULL}};
   converted_scene(&c, &scene, &scene,
-      &(sbf_convert_options){
-          .pins = pins, .pin_count = 2, .goal_minimum = 0.4, .goal_maximum = 0.8, .goal_stiffness = 30});
+      &(sbf_convert_options){.pinning.pins = pins,
+          .pinning.pin_count = 2,
+          .pinning.goal_minimum = 0.4,
+          .pinning.goal_maximum = 0.8,
+          .pinning.goal_stiffness = 30});
   const sbf_pin_set_list *sets = &body_named(c.asset, "Cape")->pins;
   ck_assert_uint_eq(sets->count, 2);
   const sbf_pin_set *set = &sets->at[0];
@@ -104,7 +107,7 @@ START_TEST(level_pins_keep_weights)
 {
   converted c;
   const sbf_convert_pin pin = {"cloth pins", ""};
-  converted_scene(&c, &scene, &scene, &(sbf_convert_options){.pins = &pin, .pin_count = 1});
+  converted_scene(&c, &scene, &scene, &(sbf_convert_options){.pinning.pins = &pin, .pinning.pin_count = 1});
   for (int tetrahedra = 0; tetrahedra < 2; tetrahedra++) {
     sbf_asset *built;
     sbf_build_options options = {
@@ -133,8 +136,9 @@ START_TEST(missing_parts_are_reported)
   for (int i = 0; i < 2; i++) {
     sbf_asset *asset = NULL;
     sbf_diagnostic error;
-    ck_assert_int_ne(sbfi_convert_scenes(&scene, &scene,
-                         &(sbf_convert_options){.pins = &wrong[i], .pin_count = 1}, &asset, &error),
+    ck_assert_int_ne(
+        sbfi_convert_scenes(&scene, &scene,
+            &(sbf_convert_options){.pinning.pins = &wrong[i], .pinning.pin_count = 1}, &asset, &error),
         SBF_OK);
     ck_assert_int_eq(error.code, SBF_CODE_IMPORT_PIN_UNKNOWN);
   }

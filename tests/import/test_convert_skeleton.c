@@ -45,7 +45,7 @@ START_TEST(nodes_between_bones_are_baked_in)
 }
 END_TEST
 
-START_TEST(the_caller_knows_unit_and_axes_better)
+START_TEST(the_caller_overrides_unit_and_axes)
 {
   sbfi_scene scene;
   scene_begin(&scene);
@@ -92,7 +92,7 @@ START_TEST(frames_along_y_are_kept)
   }
   ck_assert_float_eq_tol(c.asset->bones.at[0].length, 2, 1e-6f);
   ck_assert_float_eq_tol(c.asset->bones.at[1].length, 3, 1e-6f);
-  ck_assert_float_eq(c.asset->bones.at[2].length, 0); /* what hangs on it lies aside */
+  ck_assert_float_eq(c.asset->bones.at[2].length, 0); /* its child lies aside */
   converted_free(&c);
   sbfi_scene_free(&scene);
 }
@@ -140,7 +140,7 @@ START_TEST(a_mirrored_node_gives_a_proper_frame)
 }
 END_TEST
 
-START_TEST(last_bones_are_as_long_as_what_they_hold)
+START_TEST(last_bones_are_as_long_as_their_vertices)
 {
   static const uint32_t all_first[8] = {0};
   sbfi_scene scene;
@@ -167,11 +167,11 @@ int main(void) {
   Suite *suite = suite_create("convert_skeleton");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, nodes_between_bones_are_baked_in);
-  tcase_add_test(tests, the_caller_knows_unit_and_axes_better);
+  tcase_add_test(tests, the_caller_overrides_unit_and_axes);
   tcase_add_test(tests, frames_along_y_are_kept);
   tcase_add_test(tests, frames_are_laid_along_the_bones);
   tcase_add_test(tests, a_mirrored_node_gives_a_proper_frame);
-  tcase_add_test(tests, last_bones_are_as_long_as_what_they_hold);
+  tcase_add_test(tests, last_bones_are_as_long_as_their_vertices);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

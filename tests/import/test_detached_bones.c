@@ -28,7 +28,7 @@ static void make(sbfi_scene *scene, bool foot_first, bool foot_holds, double foo
   scene_end(scene);
 }
 
-START_TEST(a_foot_on_the_root_hangs_on_its_limb)
+START_TEST(a_foot_under_the_root_is_attached_to_its_limb)
 {
   for (int first = 0; first < 2; first++) {
     sbfi_scene scene;
@@ -37,7 +37,7 @@ START_TEST(a_foot_on_the_root_hangs_on_its_limb)
     converted_scene(&c, &scene, &scene, NULL);
     int32_t foot = bone_named(c.asset, "foot"), last = bone_named(c.asset, "last");
     ck_assert_int_eq(c.asset->bones.at[foot].parent, last);
-    ck_assert_int_gt(foot, last); /* parents first, whatever the file's order */
+    ck_assert_int_gt(foot, last); /* parents first, in any order of the file */
     ck_assert_float_eq_tol(c.asset->bones.at[last].length, 1, 1e-6f);
     ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_BONE_REHUNG), 1);
     const char *message = converted_note(&c, SBF_CODE_RIG_BONE_REHUNG)->message;
@@ -53,7 +53,7 @@ START_TEST(a_foot_on_the_root_hangs_on_its_limb)
 END_TEST
 
 /* A target without skin, and a bone that no limb points at, stay where they are. */
-START_TEST(other_bones_stay)
+START_TEST(other_bones_are_unchanged)
 {
   for (int i = 0; i < 2; i++) {
     sbfi_scene scene;
@@ -150,8 +150,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("detached_bones");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_foot_on_the_root_hangs_on_its_limb);
-  tcase_add_test(tests, other_bones_stay);
+  tcase_add_test(tests, a_foot_under_the_root_is_attached_to_its_limb);
+  tcase_add_test(tests, other_bones_are_unchanged);
   tcase_add_test(tests, a_target_ends_its_leg);
   tcase_add_test(tests, skin_weights_identify_the_leg_of_a_foot);
   tcase_add_test(tests, real_rigs);

@@ -41,7 +41,7 @@ START_TEST(numbers_of_vertices_may_be_any)
 }
 END_TEST
 
-START_TEST(a_tetrahedron_the_other_way_round_is_turned)
+START_TEST(inverted_tetrahedra_are_reversed)
 {
   sbf_asset *asset;
   ck_assert_int_eq(
@@ -54,7 +54,7 @@ START_TEST(a_tetrahedron_the_other_way_round_is_turned)
 }
 END_TEST
 
-START_TEST(what_cannot_be_is_refused)
+START_TEST(impossible_values_are_refused)
 {
   expect_fault(
       BODY(CORNERS "<tetrahedra><tetrahedron><node v=\"9\"/></tetrahedron></tetrahedra></tetrahedron_mesh>"),
@@ -86,7 +86,7 @@ START_TEST(what_cannot_be_is_refused)
 }
 END_TEST
 
-START_TEST(what_the_dialect_does_not_have_is_passed_over)
+START_TEST(unknown_elements_are_skipped)
 {
   sbfi_paper_model model;
   const char text[] =
@@ -114,7 +114,7 @@ START_TEST(another_xml_is_not_of_the_dialect)
 }
 END_TEST
 
-START_TEST(memory_that_runs_out_is_reported)
+START_TEST(failed_allocations_are_reported)
 {
   const char *path = harness_source("spec/samples/dialect2012/bar.xml");
   for (size_t allowed = 0;; allowed++) {
@@ -139,11 +139,11 @@ static Suite *suite(void) {
   Suite *s = suite_create("dialect2012_read");
   TCase *c = tcase_create("reading");
   tcase_add_test(c, numbers_of_vertices_may_be_any);
-  tcase_add_test(c, a_tetrahedron_the_other_way_round_is_turned);
-  tcase_add_test(c, what_cannot_be_is_refused);
-  tcase_add_test(c, what_the_dialect_does_not_have_is_passed_over);
+  tcase_add_test(c, inverted_tetrahedra_are_reversed);
+  tcase_add_test(c, impossible_values_are_refused);
+  tcase_add_test(c, unknown_elements_are_skipped);
   tcase_add_test(c, another_xml_is_not_of_the_dialect);
-  tcase_add_test(c, memory_that_runs_out_is_reported);
+  tcase_add_test(c, failed_allocations_are_reported);
   suite_add_tcase(s, c);
   return s;
 }

@@ -116,7 +116,7 @@ START_TEST(a_file_cut_anywhere_changes_nothing)
 }
 END_TEST
 
-/* The importer opens a file once: what it read must be enough. */
+/* The importer opens a file only once. */
 START_TEST(an_opened_file_is_not_read_again)
 {
   size_t size;

@@ -27,7 +27,7 @@ START_TEST(kind_and_name)
 }
 END_TEST
 
-START_TEST(what_is_taken_gets_a_number)
+START_TEST(used_names_get_a_number)
 {
   sbfi_conversion c;
   begin(&c, NULL);
@@ -81,7 +81,7 @@ int main(void) {
   Suite *suite = suite_create("identifier");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, kind_and_name);
-  tcase_add_test(tests, what_is_taken_gets_a_number);
+  tcase_add_test(tests, used_names_get_a_number);
   tcase_add_test(tests, many_are_all_different);
   tcase_add_test(tests, memory_may_run_out);
   suite_add_tcase(suite, tests);

@@ -195,7 +195,7 @@ START_TEST(shapes_identify_kinds)
 END_TEST
 
 /* A caller that knows is obeyed, and nothing is said to be unclear. */
-START_TEST(the_caller_says_it)
+START_TEST(the_caller_decides)
 {
   sbfi_scene scene;
   converted c;
@@ -292,7 +292,7 @@ static void build_angel(sbfi_scene *s) {
   }
 }
 
-START_TEST(where_it_is_unclear_legs_walk)
+START_TEST(unclear_characters_get_legs)
 {
   converted c;
   make(&c, build_angel, 1, false, "Fly");
@@ -314,8 +314,8 @@ static void build_hopper(sbfi_scene *s) {
   box_bone(s, "foot", shin, D3(0, -0.25, -0.05), D3(0.05, 0.05, 0.1), D3(0, -0.05, 0.05));
 }
 
-/* The file holds crawl: what is said of walk would mislead. */
-START_TEST(nothing_walks_on_one_leg)
+/* The file states crawl: a message about walk would mislead. */
+START_TEST(one_leg_gives_no_gait)
 {
   converted c;
   make(&c, build_hopper, 1, false, NULL);
@@ -338,7 +338,7 @@ static void build_posts(sbfi_scene *s) {
   }
 }
 
-START_TEST(what_little_speaks_for_stands)
+START_TEST(weak_evidence_gives_no_gait)
 {
   for (int turned = 0; turned < 2; turned++) {
     converted c;
@@ -427,7 +427,7 @@ END_TEST
 
 /* --- Rigs of other makers ---------------------------------------------------------------------------- */
 
-START_TEST(truth_of_the_zoo)
+START_TEST(weights_of_the_zoo)
 {
   char path[1024], line[512];
   const char *truth = harness_shared("../zoo/truth.tsv");
@@ -463,17 +463,17 @@ int main(void) {
   tcase_add_loop_test(tests, names_identify_parts, 0, sizeof names / sizeof *names);
   tcase_add_test(tests, clips_identify_kinds);
   tcase_add_loop_test(tests, shapes_identify_kinds, 0, 4 * sizeof shapes / sizeof *shapes);
-  tcase_add_test(tests, the_caller_says_it);
+  tcase_add_test(tests, the_caller_decides);
   tcase_add_test(tests, ambiguity_is_reported);
   tcase_add_test(tests, parts_of_other_kinds);
   tcase_add_test(tests, height_does_not_determine_a_long_body);
-  tcase_add_test(tests, where_it_is_unclear_legs_walk);
-  tcase_add_test(tests, nothing_walks_on_one_leg);
-  tcase_add_test(tests, what_little_speaks_for_stands);
+  tcase_add_test(tests, unclear_characters_get_legs);
+  tcase_add_test(tests, one_leg_gives_no_gait);
+  tcase_add_test(tests, weak_evidence_gives_no_gait);
   tcase_add_test(tests, the_head_leads_a_chain);
   tcase_add_test(tests, a_backbone_follows_the_hierarchy);
   tcase_add_test(tests, water_carries_soft_parts);
-  tcase_add_test(tests, truth_of_the_zoo);
+  tcase_add_test(tests, weights_of_the_zoo);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -57,7 +57,7 @@ START_TEST(colours_and_surface)
 }
 END_TEST
 
-START_TEST(transparency_is_the_other_way_round)
+START_TEST(transparency_is_one_minus_opacity)
 {
   read("newmtl skin\nTr 0.25\nnewmtl scale\nTr 0\n");
   ck_assert_float_eq(materials[0].base_color[3], 0.75f);
@@ -92,7 +92,7 @@ static Suite *mtl_suite(void) {
   TCase *tests = tcase_create("all");
   tcase_add_checked_fixture(tests, begin, end);
   tcase_add_test(tests, colours_and_surface);
-  tcase_add_test(tests, transparency_is_the_other_way_round);
+  tcase_add_test(tests, transparency_is_one_minus_opacity);
   tcase_add_test(tests, images_after_options);
   tcase_add_test(tests, nonsense_stops_nothing);
   suite_add_tcase(suite, tests);

@@ -55,7 +55,7 @@ START_TEST(groups_divide_where_there_is_no_object)
 END_TEST
 
 /* As Blender writes: an unused vertex stays among its neighbours, wherever in its object it stands. */
-START_TEST(unused_vertices_stay_with_their_object)
+START_TEST(unused_vertices_are_kept_in_their_object)
 {
   sbfi_scene scene;
   read_text(&scene, "o a\nv .5 .5 .5\nv 0 0 0\nv 1 0 0\nv .5 .5 .5\nv 0 1 0\nf 2 3 5\n"
@@ -68,7 +68,7 @@ START_TEST(unused_vertices_stay_with_their_object)
 END_TEST
 
 /* As Maya writes: the vertices stand before the line g of their group. */
-START_TEST(unused_vertices_go_with_those_that_follow)
+START_TEST(unused_vertices_join_the_following_ones)
 {
   sbfi_scene scene;
   read_text(&scene,
@@ -160,7 +160,7 @@ START_TEST(a_missing_library_is_a_warning)
 }
 END_TEST
 
-/* Names with blanks, in quotes, and several on a line; what is missing is named whole. */
+/* Names with blanks, in quotes, and several on a line; missing files are reported with their whole name. */
 START_TEST(names_of_libraries_may_have_blanks)
 {
   static const struct {
@@ -189,7 +189,7 @@ START_TEST(names_of_libraries_may_have_blanks)
 }
 END_TEST
 
-START_TEST(nothing_to_see_is_an_error)
+START_TEST(a_file_without_polygons_is_an_error)
 {
   const char *const files[] = {"", "# only a comment\n", "v 0 0 0\nv 1 0 0\nl 1 2\n", "this is no model\n"};
   for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
@@ -348,7 +348,7 @@ START_TEST(the_spiders_materials_have_images)
 }
 END_TEST
 
-START_TEST(bad_files_end_in_a_clear_error)
+START_TEST(bad_files_give_a_clear_error)
 {
   static const struct {
     const char *file;
@@ -373,22 +373,22 @@ static Suite *obj_suite(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, objects_divide_and_groups_do_not);
   tcase_add_test(tests, groups_divide_where_there_is_no_object);
-  tcase_add_test(tests, unused_vertices_stay_with_their_object);
-  tcase_add_test(tests, unused_vertices_go_with_those_that_follow);
+  tcase_add_test(tests, unused_vertices_are_kept_in_their_object);
+  tcase_add_test(tests, unused_vertices_join_the_following_ones);
   tcase_add_test(tests, unused_vertices_far_from_all_others_are_left_out_and_reported);
   tcase_add_test(tests, vertices_without_an_object_are_left_out_and_reported);
   tcase_add_test(tests, each_mesh_has_its_own_normals_and_uvs);
   tcase_add_test(tests, materials_come_from_the_library_beside_the_file);
   tcase_add_test(tests, a_missing_library_is_a_warning);
   tcase_add_test(tests, names_of_libraries_may_have_blanks);
-  tcase_add_test(tests, nothing_to_see_is_an_error);
+  tcase_add_test(tests, a_file_without_polygons_is_an_error);
   tcase_add_test(tests, every_allocation_may_fail);
   tcase_add_test(tests, a_limit_on_memory_is_kept);
   tcase_add_test(tests, a_missing_file_is_named);
   tcase_add_loop_test(tests, real_files_give_the_known_counts, 0, sizeof knowns / sizeof *knowns);
   tcase_add_test(tests, the_unused_vertex_of_the_lizard_is_its_arms);
   tcase_add_test(tests, the_spiders_materials_have_images);
-  tcase_add_loop_test(tests, bad_files_end_in_a_clear_error, 0, 3);
+  tcase_add_loop_test(tests, bad_files_give_a_clear_error, 0, 3);
   suite_add_tcase(suite, tests);
   return suite;
 }

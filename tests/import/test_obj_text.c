@@ -229,7 +229,7 @@ START_TEST(a_nul_is_refused_with_its_line)
 }
 END_TEST
 
-START_TEST(messages_hold_no_bytes_of_the_file_that_are_no_text)
+START_TEST(messages_contain_text_bytes_only)
 {
   sbfi_obj_text text;
   sbf_diagnostic error = {0};
@@ -253,7 +253,7 @@ static const char everything[] =
     "mtllib a.mtl\no one\ng left\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nusemtl m\n"
     "f 1/1/1 2/1/1 \\\n 3/1/1 4/1/1\ng right\nv 1 1 0 # late\nusemtl n\nf -1 -2 -3\nl 1 2\n";
 
-/* Whatever is cut off, the reader ends and gives an answer. */
+/* The reader terminates with a result for any truncated file. */
 START_TEST(cut_off_at_every_byte)
 {
   for (size_t size = 0; size < sizeof everything; size++) {
@@ -319,7 +319,7 @@ static Suite *obj_text_suite(void) {
   tcase_add_test(tests, a_face_has_a_bounded_number_of_corners);
   tcase_add_test(tests, binary_is_no_obj);
   tcase_add_test(tests, a_nul_is_refused_with_its_line);
-  tcase_add_test(tests, messages_hold_no_bytes_of_the_file_that_are_no_text);
+  tcase_add_test(tests, messages_contain_text_bytes_only);
   tcase_add_test(tests, a_mark_of_utf8_is_passed_over);
   tcase_add_test(tests, cut_off_at_every_byte);
   tcase_add_test(tests, every_allocation_may_fail);

@@ -24,7 +24,7 @@ static uint32_t leg_named(const sbf_asset *a, const char *name) {
   return 0;
 }
 
-/* What holds of every proposal. */
+/* Checks that every proposal passes. */
 static void check_proposal(const sbf_asset *a) {
   const sbf_gait *gait = gait_of(a);
   ck_assert(gait->proposed);
@@ -322,7 +322,7 @@ START_TEST(similar_cases_are_not_matched)
 END_TEST
 
 /* Twice as large: lengths double, times grow by the root. */
-START_TEST(steps_go_with_the_size)
+START_TEST(steps_scale_with_size)
 {
   sbf_gait gaits[2];
   for (int i = 0; i < 2; i++) {
@@ -373,7 +373,7 @@ START_TEST(shins_on_the_ground_have_feet)
 END_TEST
 
 /* What has a gait keeps it. */
-START_TEST(an_authored_gait_stays)
+START_TEST(an_authored_gait_is_kept)
 {
   sbf_asset *asset = sbf_asset_create(NULL);
   static const sbf_bone bones[1] = {{.id = "b", .name = "b", .parent = SBF_NONE}};
@@ -400,8 +400,8 @@ int main(void) {
   tcase_add_test(tests, shapes_identify_parts_without_names);
   tcase_add_test(tests, similar_cases_are_not_matched);
   tcase_add_loop_test(tests, shins_on_the_ground_have_feet, 0, 2);
-  tcase_add_test(tests, steps_go_with_the_size);
-  tcase_add_test(tests, an_authored_gait_stays);
+  tcase_add_test(tests, steps_scale_with_size);
+  tcase_add_test(tests, an_authored_gait_is_kept);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

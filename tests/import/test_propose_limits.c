@@ -6,7 +6,7 @@
 #include "conversions.h"
 #include "sbfmt/build.h"
 
-START_TEST(names_tell_parts)
+START_TEST(names_identify_parts)
 {
   static const struct {
     const char *name;
@@ -96,8 +96,9 @@ START_TEST(sections_of_a_skin)
 {
   converted c;
   converted_file(&c, harness_source("examples/calf/calf.glb"),
-      &(sbf_convert_options){
-          .limits = SBF_CONVERT_LIMITS_QUADRUPED, .soft = (const char *const[]){"*"}, .soft_count = 1});
+      &(sbf_convert_options){.limits = SBF_CONVERT_LIMITS_QUADRUPED,
+          .softness.soft = (const char *const[]){"*"},
+          .softness.soft_count = 1});
   sbf_asset *built;
   sbf_build_report report;
   ck_assert_int_eq(sbf_build(c.asset, NULL, &built, &report, NULL), SBF_OK);
@@ -159,7 +160,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("propose_limits");
   TCase *c = tcase_create("propose_limits");
-  tcase_add_test(c, names_tell_parts);
+  tcase_add_test(c, names_identify_parts);
   tcase_add_test(c, a_human_rig);
   tcase_add_test(c, a_fox);
   tcase_add_test(c, the_example_lizard);

@@ -12,7 +12,7 @@ static void expect(const char *text, size_t size, const char *expected) {
   ck_assert_int_eq(to[size], 'x');
 }
 
-START_TEST(short_text_stays)
+START_TEST(short_text_is_unchanged)
 {
   expect("Leg1.L", 16, "Leg1.L");
   expect("", 16, "");
@@ -20,7 +20,7 @@ START_TEST(short_text_stays)
 }
 END_TEST
 
-START_TEST(what_is_no_text_becomes_a_mark)
+START_TEST(bytes_that_are_not_text_become_a_mark)
 {
   expect("a\x1b[31m\tb\x7f", 16, "a?[31m?b?");
   expect("a\xFFz\xC3(\x80", 16, "a?z?(?");
@@ -39,8 +39,8 @@ END_TEST
 static Suite *quote_suite(void) {
   Suite *suite = suite_create("quote");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, short_text_stays);
-  tcase_add_test(tests, what_is_no_text_becomes_a_mark);
+  tcase_add_test(tests, short_text_is_unchanged);
+  tcase_add_test(tests, bytes_that_are_not_text_become_a_mark);
   tcase_add_test(tests, long_text_is_cut_between_characters);
   suite_add_tcase(suite, tests);
   return suite;

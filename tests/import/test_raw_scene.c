@@ -73,7 +73,7 @@ START_TEST(cut_off_at_every_byte)
 }
 END_TEST
 
-START_TEST(nothing_may_follow_the_end)
+START_TEST(bytes_after_the_end_are_refused)
 {
   stream_builder s = {0};
   sbf_diagnostic error = {0};
@@ -84,7 +84,7 @@ START_TEST(nothing_may_follow_the_end)
 }
 END_TEST
 
-/* Every word becomes what breaks readers: whatever is accepted must keep the promises of a scene. */
+/* Replaces every word by values that break readers: accepted scenes must keep the promises of a scene. */
 START_TEST(every_word_damaged)
 {
   static const uint32_t words[] = {0, 1, 3, 5, 0x7fffffff, 0x80000000, 0xffffffff, 0x7f800000, 0x7fc00000,
@@ -135,7 +135,7 @@ START_TEST(every_allocation_may_fail)
 END_TEST
 
 /* A count that the rest of the stream cannot hold is refused before anything is allocated for it. */
-START_TEST(large_counts_ask_for_no_memory)
+START_TEST(large_counts_allocate_nothing)
 {
   harness_memory memory;
   harness_memory_init(&memory, 0);
@@ -153,7 +153,7 @@ START_TEST(large_counts_ask_for_no_memory)
 }
 END_TEST
 
-START_TEST(what_is_not_finite_is_the_files_fault)
+START_TEST(non_finite_numbers_are_errors_of_the_file)
 {
   stream_builder s = {0};
   sbf_diagnostic error = {0};
@@ -176,7 +176,7 @@ START_TEST(what_is_not_finite_is_the_files_fault)
 }
 END_TEST
 
-START_TEST(an_index_beyond_the_vertices_is_the_files_fault)
+START_TEST(an_index_beyond_the_vertices_is_an_error_of_the_file)
 {
   stream_builder s = {0};
   sbf_diagnostic error = {0};
@@ -209,12 +209,12 @@ static Suite *raw_scene_suite(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, everything_is_read);
   tcase_add_test(tests, cut_off_at_every_byte);
-  tcase_add_test(tests, nothing_may_follow_the_end);
+  tcase_add_test(tests, bytes_after_the_end_are_refused);
   tcase_add_test(tests, every_word_damaged);
   tcase_add_test(tests, every_allocation_may_fail);
-  tcase_add_test(tests, large_counts_ask_for_no_memory);
-  tcase_add_test(tests, what_is_not_finite_is_the_files_fault);
-  tcase_add_test(tests, an_index_beyond_the_vertices_is_the_files_fault);
+  tcase_add_test(tests, large_counts_allocate_nothing);
+  tcase_add_test(tests, non_finite_numbers_are_errors_of_the_file);
+  tcase_add_test(tests, an_index_beyond_the_vertices_is_an_error_of_the_file);
   suite_add_tcase(suite, tests);
   return suite;
 }

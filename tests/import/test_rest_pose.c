@@ -85,7 +85,7 @@ static double angle_between(const double a[3], const double b[3]) {
 }
 
 /* Held out by nothing: 70 degrees down, a little ahead, elbows and fingers bent. */
-START_TEST(arms_hang)
+START_TEST(arms_are_lowered)
 {
   sbfi_scene scene;
   converted c;
@@ -121,7 +121,7 @@ START_TEST(arms_hang)
 END_TEST
 
 /* Arms that hang by 40 degrees as bound stay; they swing all the same. */
-START_TEST(arms_that_hang_stay)
+START_TEST(hanging_arms_are_unchanged)
 {
   sbfi_scene scene;
   converted c;
@@ -237,8 +237,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rest_pose");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, arms_hang);
-  tcase_add_test(tests, arms_that_hang_stay);
+  tcase_add_test(tests, arms_are_lowered);
+  tcase_add_test(tests, hanging_arms_are_unchanged);
   tcase_add_test(tests, arms_swing_against_legs);
   tcase_add_test(tests, ears_are_no_arms);
   tcase_add_test(tests, a_clip_sets_the_stance);

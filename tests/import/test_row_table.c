@@ -18,7 +18,7 @@ START_TEST(rows_are_numbered_in_order)
 }
 END_TEST
 
-START_TEST(zeros_are_one_word)
+START_TEST(zeros_of_either_sign_are_equal)
 {
   ck_assert_uint_eq(sbfi_float_word(-0.0f), sbfi_float_word(0.0f));
   ck_assert_uint_ne(sbfi_float_word(1.0f), sbfi_float_word(1.0000001f));
@@ -47,7 +47,7 @@ static Suite *row_table_suite(void) {
   Suite *suite = suite_create("row_table");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, rows_are_numbered_in_order);
-  tcase_add_test(tests, zeros_are_one_word);
+  tcase_add_test(tests, zeros_of_either_sign_are_equal);
   tcase_add_test(tests, memory_may_run_out);
   suite_add_tcase(suite, tests);
   return suite;

@@ -27,7 +27,7 @@ static void report_progress(const char *file, const skin_bend *r) {
 static void check(const char *name, const char *path, uint32_t sections, uint32_t seams_min) {
   converted c;
   const char *const all[] = {"*"};
-  converted_file(&c, path, &(sbf_convert_options){.soft = all, .soft_count = 1});
+  converted_file(&c, path, &(sbf_convert_options){.softness.soft = all, .softness.soft_count = 1});
   sbf_asset *built;
   sbf_build_report report;
   ck_assert_int_eq(sbf_build(c.asset, NULL, &built, &report, NULL), SBF_OK);
@@ -55,14 +55,14 @@ START_TEST(a_bend_of_each_joint)
 }
 END_TEST
 
-START_TEST(our_own_character)
+START_TEST(the_example_character)
 { check("calf.glb", harness_source("examples/calf/calf.glb"), 20, 2000); }
 END_TEST
 
 static Suite *suite(void) {
   Suite *s = suite_create("skin_bend");
   TCase *c = tcase_create("characters");
-  tcase_add_test(c, our_own_character);
+  tcase_add_test(c, the_example_character);
   tcase_add_loop_test(c, a_bend_of_each_joint, 0, CHARACTER_COUNT);
   suite_add_tcase(s, c);
   return s;

@@ -59,7 +59,7 @@ static double nearest_of_all(const sbfi_surface_finder *all, sbfi_d3 at, sbfi_d3
   return sqrt(min);
 }
 
-START_TEST(it_finds_the_nearest_that_faces)
+START_TEST(it_finds_the_nearest_facing_triangle)
 {
   static const double noises[] = {0, 0.02, 0.2};
   for (int n = 0; n < 3; n++) {
@@ -84,7 +84,7 @@ START_TEST(it_finds_the_nearest_that_faces)
 END_TEST
 
 /* A search does not look at the half of a tube that faces away. */
-START_TEST(nodes_that_face_away_are_left_out)
+START_TEST(nodes_that_face_away_are_skipped)
 {
   sbfi_arena arena;
   sbfi_surface_finder finder;
@@ -104,7 +104,7 @@ START_TEST(nodes_that_face_away_are_left_out)
 END_TEST
 
 /* Directions of both cones lie in their cone. */
-START_TEST(cones_hold_what_they_join)
+START_TEST(cones_contain_the_cones_they_join)
 {
   state = 5;
   for (int i = 0; i < 2000; i++) {
@@ -128,9 +128,9 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("surface_finder");
   TCase *c = tcase_create("surface_finder");
-  tcase_add_test(c, it_finds_the_nearest_that_faces);
-  tcase_add_test(c, nodes_that_face_away_are_left_out);
-  tcase_add_test(c, cones_hold_what_they_join);
+  tcase_add_test(c, it_finds_the_nearest_facing_triangle);
+  tcase_add_test(c, nodes_that_face_away_are_skipped);
+  tcase_add_test(c, cones_contain_the_cones_they_join);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -50,7 +50,7 @@ START_TEST(every_form_is_read)
 }
 END_TEST
 
-START_TEST(a_tetrahedron_the_other_way_round_is_turned)
+START_TEST(inverted_tetrahedra_are_reversed)
 {
   sbfi_tet_mesh mesh;
   put("tet_f.node", two_nodes);
@@ -64,7 +64,7 @@ START_TEST(a_tetrahedron_the_other_way_round_is_turned)
 }
 END_TEST
 
-START_TEST(a_tetrahedron_listed_again_is_left_out)
+START_TEST(repeated_tetrahedra_are_left_out)
 {
   sbfi_tet_mesh mesh;
   put("tet_r.node", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n");
@@ -228,8 +228,8 @@ int main(void) {
   Suite *suite = suite_create("tet_mesh");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, every_form_is_read);
-  tcase_add_test(tests, a_tetrahedron_the_other_way_round_is_turned);
-  tcase_add_test(tests, a_tetrahedron_listed_again_is_left_out);
+  tcase_add_test(tests, inverted_tetrahedra_are_reversed);
+  tcase_add_test(tests, repeated_tetrahedra_are_left_out);
   tcase_add_test(tests, the_boundary_has_every_outer_side_once_facing_outwards);
   tcase_add_test(tests, faults_are_named_with_their_line);
   tcase_add_test(tests, cut_files_are_refused);

@@ -21,7 +21,7 @@ START_TEST(a_quarter_turn_about_z)
 END_TEST
 
 /* Rotations all over, so that each of the four ways to a quaternion is taken; mirrored and not. */
-START_TEST(parts_make_the_whole_again)
+START_TEST(parts_multiply_to_the_whole)
 {
   uint32_t seed = 1;
   for (int n = 0; n < 2000; n++) {
@@ -72,7 +72,7 @@ static Suite *trs_suite(void) {
   Suite *suite = suite_create("trs");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_quarter_turn_about_z);
-  tcase_add_test(tests, parts_make_the_whole_again);
+  tcase_add_test(tests, parts_multiply_to_the_whole);
   tcase_add_test(tests, a_flat_transform_has_no_rotation);
   tcase_add_test(tests, inverses);
   suite_add_tcase(suite, tests);

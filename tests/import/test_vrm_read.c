@@ -19,7 +19,7 @@ static const char old_avatar[] =
     ":{\"boneGroups\":[{\"comment\":\"hair\",\"bones\":[1],\"colliderGroups\":[0]}],\"colliderGroups\":[{"
     "\"node\":0,\"colliders\":[{\"radius\":0.1}]}]}}}}";
 
-/* A line of nodes, of which the first is a bone. */
+/* A line of nodes; the first is a bone. */
 static bool begin(sbfi_scene *scene, const sbf_allocator *allocator) {
   if (!sbfi_scene_init(scene, allocator, 0, "a.vrm")) return false;
   sbfi_scene_node *nodes = sbfi_arena_allocate(&scene->arena, NODES, sizeof *nodes);
@@ -70,7 +70,7 @@ START_TEST(other_documents_have_no_avatar)
 }
 END_TEST
 
-START_TEST(memory_that_runs_out_is_reported)
+START_TEST(failed_allocations_are_reported)
 {
   const char *const texts[] = {avatar, old_avatar};
   for (int i = 0; i < 2; i++) {
@@ -98,7 +98,7 @@ int main(void) {
   TCase *all = tcase_create("all");
   tcase_add_test(all, nodes_of_springs_are_bones);
   tcase_add_test(all, other_documents_have_no_avatar);
-  tcase_add_test(all, memory_that_runs_out_is_reported);
+  tcase_add_test(all, failed_allocations_are_reported);
   suite_add_tcase(suite, all);
   return harness_run(suite);
 }

@@ -154,8 +154,8 @@ START_TEST(headers_are_believed_as_far_as_the_bytes_allow)
 }
 END_TEST
 
-/* What deflate makes the smallest, zeros, is still within what is allowed. */
-START_TEST(much_of_nothing_is_read)
+/* Zeros, which deflate compresses the most, are still within the limit. */
+START_TEST(large_empty_grids_are_read)
 {
   enum { COUNT = 80000 };
   float *points = calloc(COUNT, 12);
@@ -166,7 +166,7 @@ START_TEST(much_of_nothing_is_read)
 }
 END_TEST
 
-START_TEST(cut_anywhere_nothing_is_left_behind)
+START_TEST(a_truncated_file_leaks_nothing)
 {
   for (size_t length = 0; length < strlen(whole); length++) {
     harness_memory memory;
@@ -204,8 +204,8 @@ int main(void) {
   tcase_add_test(tests, a_grid_is_read);
   tcase_add_test(tests, faults_are_named);
   tcase_add_test(tests, headers_are_believed_as_far_as_the_bytes_allow);
-  tcase_add_test(tests, much_of_nothing_is_read);
-  tcase_add_test(tests, cut_anywhere_nothing_is_left_behind);
+  tcase_add_test(tests, large_empty_grids_are_read);
+  tcase_add_test(tests, a_truncated_file_leaks_nothing);
   tcase_add_test(tests, every_allocation_may_fail);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -26,7 +26,7 @@ def say(text):
 
 
 def run(*command, environment=None, must=True):
-    """Output of a command; raises with what it said where it fails."""
+    """Output of a command; raises an error with the output if it fails."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True,
                           env={**os.environ, **(environment or {})})
     if must and done.returncode:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The library in an add-on's zip needs nothing of the system but its C library, and shows nothing of what is linked into it.
+"""The library in an add-on's zip needs only the system's C library, and exports no symbols of the libraries linked into it.
 
 Usage: check_self_contained.py ADDON.zip [--newest-glibc 2.35]
 

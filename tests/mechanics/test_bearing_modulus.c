@@ -13,7 +13,7 @@ static double needed(float height, float density) {
 /* rho g h / E = 1/20 */
 START_TEST(by_weight)
 {
-  ck_assert_double_eq(needed(0.4f, 1000), 80000); /* the usual modulus bears that */
+  ck_assert_double_eq(needed(0.4f, 1000), 80000); /* the usual modulus supports that */
   ck_assert_double_eq(needed(2, 1000), 400000);   /* 392400, rounded up to two digits */
   ck_assert_double_eq(needed(2, 100), 80000);
   ck_assert_double_eq(needed(1e30f, 1e10f), 80000); /* no such thing */
@@ -25,7 +25,7 @@ END_TEST
 
 /* A box of 4 x 1 x 4 m on a leg of 1 x 1 x 1 m: at the middle of the leg 16.5 m^3 above 1 m^2, near its foot
  * 16.9; as one surface, the leg's top inside of it. On its head it stands as a column of 2 m does. */
-START_TEST(by_what_stands_on_what)
+START_TEST(a_column_needs_a_modulus_for_its_load)
 {
   static const uint32_t quads[6][4] = {
       {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
@@ -57,7 +57,7 @@ int main(void) {
   Suite *s = suite_create("bearing_modulus");
   TCase *c = tcase_create("bearing_modulus");
   tcase_add_test(c, by_weight);
-  tcase_add_loop_test(c, by_what_stands_on_what, 0, 2);
+  tcase_add_loop_test(c, a_column_needs_a_modulus_for_its_load, 0, 2);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -52,7 +52,7 @@ START_TEST(sweep_inverts_its_own_matrix)
 }
 END_TEST
 
-START_TEST(rows_without_stiffness_stay)
+START_TEST(rows_without_stiffness_are_unchanged)
 {
   for (int k = 0; k < 9; k++) matrix.blocks[9 * matrix.diagonals[2] + k] = 0;
   sbfi_block_matrix_prepare(&matrix);
@@ -71,7 +71,7 @@ int main(void) {
   tcase_add_test(c, pattern);
   tcase_add_test(c, product);
   tcase_add_test(c, sweep_inverts_its_own_matrix);
-  tcase_add_test(c, rows_without_stiffness_stay);
+  tcase_add_test(c, rows_without_stiffness_are_unchanged);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -43,8 +43,8 @@ START_TEST(volume_by_tributary_area)
 }
 END_TEST
 
-/* Whether the masses are stated or come from a lattice: what is held carries none of it. */
-START_TEST(held_points_of_other_bodies_have_none)
+/* Pinned points have no mass, both with stated masses and with those of a lattice. */
+START_TEST(pinned_points_of_other_bodies_have_no_mass)
 {
   static const sbf_uint4 tetrahedra[] = {{{0, 1, 2, 3}}};
   static const sbf_vec3 corners[] = {{0, 0, 0}, {0.6f, 0, 0}, {0, 0.1f, 0}, {0, 0, 0.1f}}; /* a litre */
@@ -64,7 +64,7 @@ START_TEST(held_points_of_other_bodies_have_none)
 }
 END_TEST
 
-START_TEST(held_points_have_none)
+START_TEST(pinned_points_have_no_mass)
 {
   const uint32_t points[] = {3, 7, 9};
   const float weights[] = {1, 0.5f, 0.25f};
@@ -86,7 +86,7 @@ START_TEST(held_points_have_none)
 }
 END_TEST
 
-START_TEST(points_without_area_count_as_the_mean)
+START_TEST(points_without_area_get_the_mean_mass)
 {
   sbf_vec3 positions[28] = {{0, 0, 0}};
   for (int i = 0; i < 26; i++) positions[i] = body->surface.positions.at[i];
@@ -146,7 +146,7 @@ START_TEST(sheets)
 END_TEST
 
 /* A fin that is drawn from both sides: closed, and nothing inside. */
-START_TEST(a_closed_surface_that_encloses_nothing_weighs_as_one_layer)
+START_TEST(a_flat_closed_surface_has_the_mass_of_one_layer)
 {
   static const sbf_vec3 corners[] = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
   static const uint32_t sizes[] = {4, 4}, points[] = {0, 1, 2, 3, 3, 2, 1, 0};
@@ -177,7 +177,7 @@ START_TEST(depth_is_the_radius_of_a_ball)
 }
 END_TEST
 
-START_TEST(tetrahedra_give_a_quarter)
+START_TEST(tetrahedra_give_each_corner_a_quarter)
 {
   const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
   const sbf_uint4 tetrahedra[] = {{{0, 1, 2, 3}}, {{1, 2, 3, 4}}};
@@ -205,15 +205,15 @@ static Suite *suite(void) {
   TCase *c = tcase_create("body_mass");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, volume_by_tributary_area);
-  tcase_add_test(c, held_points_have_none);
-  tcase_add_test(c, held_points_of_other_bodies_have_none);
-  tcase_add_test(c, points_without_area_count_as_the_mean);
+  tcase_add_test(c, pinned_points_have_no_mass);
+  tcase_add_test(c, pinned_points_of_other_bodies_have_no_mass);
+  tcase_add_test(c, points_without_area_get_the_mean_mass);
   tcase_add_test(c, stated_mass_and_maps);
   tcase_add_test(c, points_in_another_order);
   tcase_add_test(c, sheets);
-  tcase_add_test(c, a_closed_surface_that_encloses_nothing_weighs_as_one_layer);
+  tcase_add_test(c, a_flat_closed_surface_has_the_mass_of_one_layer);
   tcase_add_test(c, depth_is_the_radius_of_a_ball);
-  tcase_add_test(c, tetrahedra_give_a_quarter);
+  tcase_add_test(c, tetrahedra_give_each_corner_a_quarter);
   tcase_add_test(c, points_alone_are_balls);
   suite_add_tcase(s, c);
   return s;

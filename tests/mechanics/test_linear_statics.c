@@ -12,7 +12,7 @@ static sbfi_arena arena;
 static lattice_box box;
 static sbf_spring_network network;
 
-/* A bar of 20 x 3 x 3 cells, held at x = 0: many points, of which smooth errors are slow to go. */
+/* A bar of 20 x 3 x 3 cells, pinned at x = 0: many points, so smooth errors decay slowly. */
 static void setup(void) {
   sbfi_arena_init(&arena, NULL, 0);
   box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){2, 0.3f, 0.3f}, 20, 3, 3, 1000, 1e6f, 0.3f);
@@ -52,7 +52,7 @@ START_TEST(a_bar_bends_in_few_steps)
 }
 END_TEST
 
-START_TEST(what_was_found_is_a_start)
+START_TEST(a_solution_is_a_start_for_the_next)
 {
   static double forces[3 * POINTS], moved[3 * POINTS];
   sbfi_linear_statics linear;
@@ -113,7 +113,7 @@ START_TEST(a_small_bar_bends_at_once)
 END_TEST
 
 /* Nothing resists its motion as a whole: no factorisation, but an answer to balanced forces. */
-START_TEST(a_small_bar_that_nothing_holds)
+START_TEST(a_small_unpinned_bar)
 {
   static double forces[3 * FEW], moved[3 * FEW];
   lattice_box small = make_small_bar();
@@ -134,7 +134,7 @@ START_TEST(a_small_bar_that_nothing_holds)
 }
 END_TEST
 
-/* Refreshed moduli are factorised anew. */
+/* Refreshed moduli are factorised again. */
 START_TEST(a_small_bar_of_twice_the_modulus)
 {
   static double forces[3 * FEW], before[3 * FEW], after[3 * FEW];
@@ -181,10 +181,10 @@ int main(void) {
   TCase *c = tcase_create("linear_statics");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_bar_bends_in_few_steps);
-  tcase_add_test(c, what_was_found_is_a_start);
+  tcase_add_test(c, a_solution_is_a_start_for_the_next);
   tcase_add_test(c, half_the_modulus_gives_twice_as_much);
   tcase_add_test(c, a_small_bar_bends_at_once);
-  tcase_add_test(c, a_small_bar_that_nothing_holds);
+  tcase_add_test(c, a_small_unpinned_bar);
   tcase_add_test(c, a_small_bar_of_twice_the_modulus);
   tcase_add_test(c, a_point_on_one_spring);
   suite_add_tcase(s, c);

@@ -32,7 +32,7 @@ START_TEST(the_body_s)
 }
 END_TEST
 
-START_TEST(the_lattice_s_goes_first)
+START_TEST(the_modulus_of_the_lattice_has_precedence)
 {
   body.weight_maps = (sbf_weight_map_list){&map, 1};
   level.lattice.young_modulus = (sbf_f32_list){one, 1};
@@ -50,7 +50,7 @@ int main(void) {
   TCase *c = tcase_create("moduli");
   tcase_add_checked_fixture(c, setup, NULL);
   tcase_add_test(c, the_body_s);
-  tcase_add_test(c, the_lattice_s_goes_first);
+  tcase_add_test(c, the_modulus_of_the_lattice_has_precedence);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -74,7 +74,7 @@ START_TEST(small_strains_obey_hooke)
 }
 END_TEST
 
-START_TEST(works_at_rest_are_those_of_the_products)
+START_TEST(work_at_rest_equals_the_product)
 {
   const sbfi_d3 u[4] = {{0.3, -0.1, 0.7}, {-0.4, 0.2, 0.1}, {0.5, 0.6, -0.2}, {0.1, -0.8, 0.3}},
                 v[4] = {{-0.2, 0.4, 0.1}, {0.3, 0.3, -0.6}, {0.7, -0.5, 0.2}, {-0.1, 0.2, 0.9}};
@@ -213,7 +213,7 @@ int main(void) {
   tcase_add_test(c, volume_and_gradients);
   tcase_add_test(c, rigid_motion_costs_nothing);
   tcase_add_test(c, small_strains_obey_hooke);
-  tcase_add_test(c, works_at_rest_are_those_of_the_products);
+  tcase_add_test(c, work_at_rest_equals_the_product);
   tcase_add_test(c, uniaxial_stress);
   tcase_add_loop_test(c, forces_are_the_slope_of_the_energy, 0, 3);
   tcase_add_loop_test(c, products_are_the_change_of_the_forces, 0, 3);

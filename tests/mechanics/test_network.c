@@ -51,7 +51,7 @@ START_TEST(bodies_without_pins_are_reported)
 }
 END_TEST
 
-START_TEST(anchors_hold_in_all_directions)
+START_TEST(anchors_resist_all_directions)
 {
   float anchors[COUNT + 2] = {0};
   sbf_spring_network network = chain(100, 0.5f, false);
@@ -80,7 +80,7 @@ START_TEST(highest_mode_of_a_chain)
 }
 END_TEST
 
-START_TEST(bound_counts_held_neighbours_once)
+START_TEST(the_bound_counts_pinned_neighbours_once)
 {
   sbf_spring_network network = chain(80, 0.2f, true);
   for (uint32_t i = 0; i < COUNT; i++) masses[i] = 0; /* the last one alone, between two walls */
@@ -161,7 +161,7 @@ START_TEST(a_loose_point_does_not_spoil_it)
 }
 END_TEST
 
-START_TEST(nothing_swings)
+START_TEST(pinned_chains_have_no_modes)
 {
   sbf_spring_network network = chain(80, 0, true);
   double scratch[16 * (COUNT + 2)];
@@ -229,14 +229,14 @@ static Suite *suite(void) {
   TCase *c = tcase_create("network");
   tcase_add_test(c, chain_under_its_own_weight);
   tcase_add_test(c, bodies_without_pins_are_reported);
-  tcase_add_test(c, anchors_hold_in_all_directions);
+  tcase_add_test(c, anchors_resist_all_directions);
   tcase_add_test(c, highest_mode_of_a_chain);
-  tcase_add_test(c, bound_counts_held_neighbours_once);
+  tcase_add_test(c, the_bound_counts_pinned_neighbours_once);
   tcase_add_test(c, lowest_mode_of_one_mass);
   tcase_add_test(c, lowest_mode_of_a_chain);
   tcase_add_test(c, lowest_mode_of_a_free_body);
   tcase_add_test(c, a_loose_point_does_not_spoil_it);
-  tcase_add_test(c, nothing_swings);
+  tcase_add_test(c, pinned_chains_have_no_modes);
   tcase_add_test(c, modes_of_a_beam_of_tetrahedra);
   tcase_add_test(c, statics_of_tetrahedra);
   suite_add_tcase(s, c);

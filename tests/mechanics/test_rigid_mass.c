@@ -4,7 +4,7 @@
 #include "sbfmt/mechanics.h"
 #include "shapes.h"
 
-START_TEST(what_a_body_states_is_taken)
+START_TEST(stated_mass_is_used)
 {
   sbf_rigid_body body;
   sbf_rigid_measures is;
@@ -65,7 +65,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rigid_mass");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, what_a_body_states_is_taken);
+  tcase_add_test(tests, stated_mass_is_used);
   tcase_add_test(tests, a_mass_without_a_shape_is_a_ball);
   tcase_add_test(tests, a_hull_is_filled_evenly);
   suite_add_tcase(suite, tests);

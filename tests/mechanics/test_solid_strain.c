@@ -80,7 +80,7 @@ START_TEST(stretches_are_the_singular_values)
 }
 END_TEST
 
-START_TEST(what_is_no_metric_is_refused)
+START_TEST(invalid_metrics_are_refused)
 {
   sbfi_d3 edges[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   sbfi_stretches found;
@@ -108,7 +108,7 @@ static matrix flowed(matrix f, matrix inverse_plastic, double y, double fraction
   return times(inverse_plastic, inverse);
 }
 
-START_TEST(flow_is_that_of_the_specification)
+START_TEST(flow_follows_the_specification)
 {
   matrix f = times(turn(0.4, 1.1), times(diagonal(1.4, 0.7, 1.05), turn(-0.7, 0.2)));
   matrix inverse_plastic = diagonal(1, 1, 1);
@@ -127,7 +127,7 @@ START_TEST(flow_is_that_of_the_specification)
 }
 END_TEST
 
-START_TEST(flow_goes_as_far_as_the_yield_strain_and_keeps_the_volume)
+START_TEST(flow_ends_at_the_yield_strain_and_keeps_the_volume)
 {
   matrix f = diagonal(1.5, 0.85, 0.8);
   sbfi_solid_metric metric = metric_of(diagonal(1, 1, 1));
@@ -152,9 +152,9 @@ int main(void) {
   Suite *s = suite_create("solid_strain");
   TCase *c = tcase_create("solid_strain");
   tcase_add_loop_test(c, stretches_are_the_singular_values, 0, 2);
-  tcase_add_test(c, what_is_no_metric_is_refused);
-  tcase_add_test(c, flow_is_that_of_the_specification);
-  tcase_add_test(c, flow_goes_as_far_as_the_yield_strain_and_keeps_the_volume);
+  tcase_add_test(c, invalid_metrics_are_refused);
+  tcase_add_test(c, flow_follows_the_specification);
+  tcase_add_test(c, flow_ends_at_the_yield_strain_and_keeps_the_volume);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -18,7 +18,7 @@ START_TEST(the_force_is_the_slope_of_the_energy)
 }
 END_TEST
 
-START_TEST(slack_is_stiffness_that_pressing_lacks)
+START_TEST(slack_is_missing_stiffness_in_compression)
 {
   const sbfi_spring s = {0, 1, 120, 0.5f, 0, 0.75f};
   ck_assert_double_eq_tol(sbfi_spring_energy(&s, 0.6), 0.6, 1e-6);
@@ -50,7 +50,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("spring");
   TCase *c = tcase_create("spring");
   tcase_add_test(c, the_force_is_the_slope_of_the_energy);
-  tcase_add_test(c, slack_is_stiffness_that_pressing_lacks);
+  tcase_add_test(c, slack_is_missing_stiffness_in_compression);
   tcase_add_test(c, strain_and_pull_of_springs_without_length);
   tcase_add_test(c, energies_add_up);
   suite_add_tcase(s, c);

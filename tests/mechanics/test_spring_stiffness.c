@@ -81,7 +81,7 @@ START_TEST(short_springs_count_as_longer)
 }
 END_TEST
 
-START_TEST(anchors_give_the_pyramid)
+START_TEST(anchors_reproduce_a_pyramid_of_springs)
 {
   /* A point at (0, 0, 1) over the centre: one spring along the axis, four leaning by 60 degrees. */
   const float h = 0.8660254f;
@@ -149,7 +149,7 @@ START_TEST(no_direction_is_left_free)
 }
 END_TEST
 
-START_TEST(levels_fill_in_what_is_not_stated)
+START_TEST(levels_provide_missing_values)
 {
   make_lattice(1);
   const float one = 7, each[] = {1, 2, 3};
@@ -191,10 +191,10 @@ static Suite *suite(void) {
   tcase_add_test(c, half_the_size_half_the_stiffness);
   tcase_add_test(c, no_length_no_stiffness);
   tcase_add_test(c, short_springs_count_as_longer);
-  tcase_add_test(c, anchors_give_the_pyramid);
+  tcase_add_test(c, anchors_reproduce_a_pyramid_of_springs);
   tcase_add_test(c, anchors_that_cannot_fit_keep_the_trace);
   tcase_add_test(c, no_direction_is_left_free);
-  tcase_add_test(c, levels_fill_in_what_is_not_stated);
+  tcase_add_test(c, levels_provide_missing_values);
   suite_add_tcase(s, c);
   return s;
 }

@@ -168,7 +168,7 @@ START_TEST(torsion_of_a_square_bar)
 }
 END_TEST
 
-START_TEST(springs_hang_as_the_chain_does)
+START_TEST(springs_hang_like_the_chain)
 {
   enum { COUNT = 6 };
   sbf_vec3 positions[COUNT + 1];
@@ -201,7 +201,7 @@ START_TEST(springs_hang_as_the_chain_does)
 }
 END_TEST
 
-START_TEST(what_nothing_holds_does_not_converge)
+START_TEST(unpinned_bodies_do_not_converge)
 {
   statics s = begin(3, 1, 0.4, 1000);
   sbfi_static_problem problem = {.network = &s.network, .gravity = {0, -9.81f, 0}, .max_steps = 10};
@@ -237,8 +237,8 @@ int main(void) {
   tcase_add_test(c, stretch_under_its_own_weight);
   tcase_add_loop_test(c, cantilever_under_its_own_weight, 0, 2);
   tcase_add_test(c, torsion_of_a_square_bar);
-  tcase_add_test(c, springs_hang_as_the_chain_does);
-  tcase_add_test(c, what_nothing_holds_does_not_converge);
+  tcase_add_test(c, springs_hang_like_the_chain);
+  tcase_add_test(c, unpinned_bodies_do_not_converge);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -22,7 +22,7 @@ START_TEST(known_matrix)
 }
 END_TEST
 
-START_TEST(large_matrices_come_apart)
+START_TEST(large_matrices_are_decomposed)
 {
   enum { N = 30 };
   double matrix[N * N], kept[N * N], vectors[N * N];
@@ -45,7 +45,7 @@ START_TEST(nothing_to_do)
   ck_assert(matrix[0] == 0 && vectors[0] == 1 && vectors[1] == 0 && vectors[3] == 1);
   sbfi_symmetric_compute_eigen(2, diagonal, vectors);
   ck_assert(diagonal[0] == 3 && diagonal[3] == -1);
-  double odd[4] = {NAN, 1, 1, 2}; /* ends, whatever comes out */
+  double odd[4] = {NAN, 1, 1, 2}; /* terminates with any result */
   sbfi_symmetric_compute_eigen(2, odd, vectors);
 }
 END_TEST
@@ -54,7 +54,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("symmetric_eigen");
   TCase *c = tcase_create("symmetric_eigen");
   tcase_add_test(c, known_matrix);
-  tcase_add_test(c, large_matrices_come_apart);
+  tcase_add_test(c, large_matrices_are_decomposed);
   tcase_add_test(c, nothing_to_do);
   suite_add_tcase(s, c);
   return s;

@@ -4,7 +4,7 @@
 #include "harness.h"
 #include "promises.h"
 
-START_TEST(test_a_copy_is_equal_and_shares_no_memory)
+START_TEST(test_a_copy_is_equal_and_has_its_own_memory)
 {
   sbf_asset *asset = fill_asset(&(fill_options){.seed = 11}), *same = fill_asset(&(fill_options){.seed = 11});
   sbf_asset *copy = sbf_asset_clone(asset, NULL);
@@ -18,7 +18,7 @@ START_TEST(test_a_copy_is_equal_and_shares_no_memory)
 }
 END_TEST
 
-START_TEST(test_copy_keeps_what_differs_by_machine)
+START_TEST(test_a_copy_keeps_values_that_differ_by_machine)
 {
   sbf_asset *asset = fill_asset(&(fill_options){.seed = 11}), *copy = sbf_asset_clone(asset, NULL);
   const sbf_simulation *simulation = &copy->soft_bodies.at[0].levels.at[0].simulation;
@@ -30,7 +30,7 @@ START_TEST(test_copy_keeps_what_differs_by_machine)
 }
 END_TEST
 
-START_TEST(test_every_failed_allocation_leaves_nothing)
+START_TEST(test_every_failed_allocation_frees_everything)
 {
   sbf_asset *asset = fill_asset(&(fill_options){.seed = 11});
   size_t allowed = 0;
@@ -50,9 +50,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("clone");
   TCase *tests = tcase_create("clone");
-  tcase_add_test(tests, test_a_copy_is_equal_and_shares_no_memory);
-  tcase_add_test(tests, test_copy_keeps_what_differs_by_machine);
-  tcase_add_test(tests, test_every_failed_allocation_leaves_nothing);
+  tcase_add_test(tests, test_a_copy_is_equal_and_has_its_own_memory);
+  tcase_add_test(tests, test_a_copy_keeps_values_that_differ_by_machine);
+  tcase_add_test(tests, test_every_failed_allocation_frees_everything);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -35,7 +35,7 @@ START_TEST(test_paths)
   sbfi_element_path extension = child(&root, "extensions", 0);
   expect_path(&extension, "data", "/sbf/extensions/extension[1]/data");
 
-  char little[12]; /* cut to fit, whatever the room */
+  char little[12]; /* cut to fit any capacity */
   sbfi_element_path_print(&pin_set, NULL, little, sizeof little);
   ck_assert_str_eq(little, "/sbf/soft_b");
   sbfi_element_path_print(&pin_set, NULL, little, 1);

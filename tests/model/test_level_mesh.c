@@ -35,7 +35,7 @@ static sbfi_level_mesh make(void) {
   return made;
 }
 
-START_TEST(vertices_that_are_used)
+START_TEST(used_vertices)
 {
   sbfi_level_mesh made = make();
   ck_assert_uint_eq(made.vertex_count, 3);
@@ -49,7 +49,7 @@ START_TEST(vertices_that_are_used)
 }
 END_TEST
 
-START_TEST(what_points_have)
+START_TEST(point_attributes)
 {
   static const sbf_vec3 normals[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
   static const sbf_vec2 coordinates[] = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}};
@@ -68,7 +68,7 @@ START_TEST(what_points_have)
 END_TEST
 
 /* Point 1 is a corner of both quads, with looks of its own in each. */
-START_TEST(what_corners_have)
+START_TEST(corner_attributes)
 {
   static const uint32_t numbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, named[] = {3, 4, 6};
   static const sbf_vec3 normals[8] = {{0, 0, 1}};
@@ -114,9 +114,9 @@ static Suite *suite(void) {
   Suite *s = suite_create("level_mesh");
   TCase *c = tcase_create("level_mesh");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, vertices_that_are_used);
-  tcase_add_test(c, what_points_have);
-  tcase_add_test(c, what_corners_have);
+  tcase_add_test(c, used_vertices);
+  tcase_add_test(c, point_attributes);
+  tcase_add_test(c, corner_attributes);
   tcase_add_test(c, no_memory);
   suite_add_tcase(s, c);
   return s;

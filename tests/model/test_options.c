@@ -20,7 +20,7 @@ START_TEST(test_zero_means_the_documented_default)
 }
 END_TEST
 
-START_TEST(test_what_is_given_stays)
+START_TEST(test_given_options_are_kept)
 {
   sbf_load_options load = sbfi_load_options_of(
       &(sbf_load_options){.limits = {.inflate_ratio = 7}, .check_crc = true, .copy_file = true});
@@ -42,7 +42,7 @@ START_TEST(test_a_shorter_struct_of_an_older_caller_is_not_read_past_its_end)
 }
 END_TEST
 
-START_TEST(test_options_of_any_age_are_taken)
+START_TEST(test_options_of_any_version_are_accepted)
 {
   struct {
     size_t struct_size;
@@ -56,7 +56,7 @@ START_TEST(test_options_of_any_age_are_taken)
   given.struct_size = sizeof(size_t) + sizeof(int);
   ck_assert(sbfi_options_copy(&taken, sizeof taken, &given));
   ck_assert(taken.old == 1 && taken.young == 0);
-  given.struct_size = sizeof given + 100; /* of a newer one: what is known of it */
+  given.struct_size = sizeof given + 100; /* of a newer version: known members are read */
   ck_assert(sbfi_options_copy(&taken, sizeof taken, &given));
   ck_assert_int_eq(taken.young, 2);
   given.struct_size = 3;
@@ -68,9 +68,9 @@ int main(void) {
   Suite *suite = suite_create("options");
   TCase *tests = tcase_create("options");
   tcase_add_test(tests, test_zero_means_the_documented_default);
-  tcase_add_test(tests, test_what_is_given_stays);
+  tcase_add_test(tests, test_given_options_are_kept);
   tcase_add_test(tests, test_a_shorter_struct_of_an_older_caller_is_not_read_past_its_end);
-  tcase_add_test(tests, test_options_of_any_age_are_taken);
+  tcase_add_test(tests, test_options_of_any_version_are_accepted);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -48,7 +48,7 @@ START_TEST(names_mean_parts)
 }
 END_TEST
 
-START_TEST(what_a_word_means_depends_on_the_others)
+START_TEST(the_meaning_of_a_word_depends_on_the_others)
 {
   static const char *const cmu[] = {"Hips", "LeftUpLeg", "LeftLeg", "LeftFoot", NULL};
   static const char *const numbered[] = {"root", "Leg.001.L", "Leg.002.L", "Leg.003.L", NULL};
@@ -58,7 +58,7 @@ START_TEST(what_a_word_means_depends_on_the_others)
 }
 END_TEST
 
-START_TEST(several_bones_of_a_part_go_by_share)
+START_TEST(several_bones_of_a_part_match_by_fraction)
 {
   static const char *const three[] = {"Spine", "Spine1", "Spine2", NULL};
   static const char *const two[] = {"spine_01", "chest", NULL}, *const five[] = {"spine", "spine.001",
@@ -118,8 +118,8 @@ int main(void) {
   Suite *suite = suite_create("bone_match");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, names_mean_parts);
-  tcase_add_test(tests, what_a_word_means_depends_on_the_others);
-  tcase_add_test(tests, several_bones_of_a_part_go_by_share);
+  tcase_add_test(tests, the_meaning_of_a_word_depends_on_the_others);
+  tcase_add_test(tests, several_bones_of_a_part_match_by_fraction);
   tcase_add_test(tests, chains_come_first);
   tcase_add_test(tests, chains_identify_parts_without_names);
   suite_add_tcase(suite, tests);

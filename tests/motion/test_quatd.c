@@ -37,7 +37,7 @@ START_TEST(the_arc_is_followed_at_constant_speed)
 }
 END_TEST
 
-START_TEST(between_two_vectors_lies_the_least_turn)
+START_TEST(the_smallest_rotation_between_two_vectors)
 {
   static const double from[3] = {0, 1, 0}, to[3] = {0.6, 0, 0.8}, back[3] = {0, -1, 0};
   double rotation[4], there[3];
@@ -56,7 +56,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, halfway_between_two_rotations);
   tcase_add_test(tests, the_arc_is_followed_at_constant_speed);
-  tcase_add_test(tests, between_two_vectors_lies_the_least_turn);
+  tcase_add_test(tests, the_smallest_rotation_between_two_vectors);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

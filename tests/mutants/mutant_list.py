@@ -9,7 +9,7 @@ REQUIRED = [key for key in KEYS if key != "under"]
 
 
 class ListError(Exception):
-    """The list itself is at fault."""
+    """The list itself is invalid."""
 
 
 @dataclass
@@ -80,7 +80,7 @@ def read_mutants(path):
 
 
 def check_mutants(mutants, root):
-    """What is wrong with the list as it stands beside the source."""
+    """Errors of the list, compared with the source."""
     faults = []
     for mutant in mutants:
         path = os.path.join(root, mutant.file)

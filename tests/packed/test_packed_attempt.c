@@ -17,7 +17,7 @@ static void fill_ramp(uint32_t *values) {
   for (uint32_t i = 0; i < COUNT; i++) values[i] = i * 1021;
 }
 
-START_TEST(test_the_best_filter_is_the_one_that_leaves_least)
+START_TEST(test_the_filter_with_the_smallest_result_is_best)
 {
   static const struct {
     void (*fill)(uint32_t *values);
@@ -44,7 +44,7 @@ START_TEST(test_the_best_filter_is_the_one_that_leaves_least)
 }
 END_TEST
 
-START_TEST(test_what_is_kept_is_the_smallest_and_of_equals_the_first)
+START_TEST(test_the_first_of_the_smallest_results_is_kept)
 {
   uint32_t values[COUNT];
   uint8_t memory[2][BYTES], twin[BYTES];
@@ -94,8 +94,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("packed_attempt");
   TCase *all = tcase_create("all");
-  tcase_add_loop_test(all, test_the_best_filter_is_the_one_that_leaves_least, 0, 3);
-  tcase_add_test(all, test_what_is_kept_is_the_smallest_and_of_equals_the_first);
+  tcase_add_loop_test(all, test_the_filter_with_the_smallest_result_is_best, 0, 3);
+  tcase_add_test(all, test_the_first_of_the_smallest_results_is_kept);
   tcase_add_test(all, test_failed_allocations_are_reported);
   suite_add_tcase(suite, all);
   return harness_run(suite);

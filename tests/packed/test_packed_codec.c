@@ -9,12 +9,12 @@ enum { COUNT = 200000, BYTES = COUNT * 4 };
 
 static uint32_t *ramp(void) {
   uint32_t *values = malloc(BYTES);
-  /* Each four times, as a filter of what is named again needs it. */
+  /* Each four times, as the filter of repeated values needs them. */
   for (uint32_t i = 0; i < COUNT; i++) values[i] = i / 4 * 3 + (i / 4 * 2654435761u >> 29);
   return values;
 }
 
-START_TEST(test_every_filter_comes_back)
+START_TEST(test_every_filter_round_trips)
 {
   uint32_t *values = ramp();
   uint8_t *stored = malloc(BYTES), *back = malloc(BYTES);
@@ -41,7 +41,7 @@ START_TEST(test_every_filter_comes_back)
 }
 END_TEST
 
-START_TEST(test_streams_that_are_not_whole_are_damaged)
+START_TEST(test_truncated_streams_are_damaged)
 {
   uint32_t *values = ramp();
   uint8_t *stored = malloc(BYTES + 1), *back = malloc(BYTES + 4);
@@ -69,7 +69,7 @@ START_TEST(test_streams_that_are_not_whole_are_damaged)
 }
 END_TEST
 
-START_TEST(test_room_is_kept_to_the_byte)
+START_TEST(test_capacity_is_exact_to_the_byte)
 {
   uint32_t *values = ramp();
   uint8_t *stored = malloc(BYTES);
@@ -142,9 +142,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("packed_codec");
   TCase *tests = tcase_create("packed_codec");
-  tcase_add_test(tests, test_every_filter_comes_back);
-  tcase_add_test(tests, test_streams_that_are_not_whole_are_damaged);
-  tcase_add_test(tests, test_room_is_kept_to_the_byte);
+  tcase_add_test(tests, test_every_filter_round_trips);
+  tcase_add_test(tests, test_truncated_streams_are_damaged);
+  tcase_add_test(tests, test_capacity_is_exact_to_the_byte);
   tcase_add_test(tests, test_failed_allocations_are_reported);
   tcase_add_test(tests, test_crc_is_that_of_zip_and_png);
   suite_add_tcase(suite, tests);

@@ -28,7 +28,7 @@ static void round_trip(sbfi_packed_filter filter, uint32_t width, size_t count, 
   free(planes);
 }
 
-START_TEST(test_what_is_filtered_comes_back)
+START_TEST(test_filters_round_trip)
 {
   for (uint32_t width = 1; width <= 4; width++)
     for (int filter = SBFI_FILTER_PLANES; filter <= SBFI_FILTER_DELTA; filter++) {
@@ -71,7 +71,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("packed_filter");
   TCase *tests = tcase_create("packed_filter");
-  tcase_add_test(tests, test_what_is_filtered_comes_back);
+  tcase_add_test(tests, test_filters_round_trip);
   tcase_add_test(tests, test_bytes_are_those_of_the_specification);
   tcase_add_test(tests, test_scalars_of_a_file_are_little_endian);
   suite_add_tcase(suite, tests);

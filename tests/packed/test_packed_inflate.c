@@ -44,7 +44,7 @@ static size_t deflated(
   return capacity - stream.avail_out;
 }
 
-START_TEST(test_what_zlib_deflates_comes_back)
+START_TEST(test_zlib_streams_are_inflated)
 {
   static const size_t sizes[] = {0, 1, 2, 100, 5000, 70000, MAX};
   static const int strategies[] = {Z_DEFAULT_STRATEGY, Z_FILTERED, Z_HUFFMAN_ONLY, Z_RLE, Z_FIXED};
@@ -108,7 +108,7 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("packed inflate");
   TCase *c = tcase_create("packed inflate");
-  tcase_add_test(c, test_what_zlib_deflates_comes_back);
+  tcase_add_test(c, test_zlib_streams_are_inflated);
   tcase_add_test(c, test_broken_streams_are_refused_as_zlib_does);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -30,7 +30,7 @@ static sbf_buffer small_file(bool store) {
 
 /* --- round trips --- */
 
-START_TEST(test_every_field_comes_back)
+START_TEST(test_every_field_round_trips)
 {
   for (uint64_t seed = 0; seed < 6; seed++)
     for (int store = 0; store < 2; store++) {
@@ -92,7 +92,7 @@ START_TEST(test_memory_that_is_not_aligned_is_copied)
 }
 END_TEST
 
-START_TEST(test_files_are_mapped_or_read_and_stay_as_long_as_the_asset)
+START_TEST(test_files_are_mapped_or_read_and_live_as_long_as_the_asset)
 {
   sbf_asset *asset = small_asset(), *loaded;
   const char *path = harness_scratch("load.sbfz");
@@ -169,7 +169,7 @@ END_TEST
 
 /* Whatever single byte is damaged: the asset is the same, because the byte means nothing, or the load fails.
  */
-START_TEST(test_every_damaged_byte_is_seen_with_checksums)
+START_TEST(test_checksums_detect_every_damaged_byte)
 {
   for (int store = 0; store < 2; store++) {
     sbf_buffer file = small_file(store);
@@ -280,7 +280,7 @@ START_TEST(test_checksum_of_a_chunk_is_checked_on_request)
 END_TEST
 
 /* The header decides on the fields; a record that states an earlier version is of the header's. */
-START_TEST(test_the_version_is_at_least_that_of_the_header)
+START_TEST(test_the_version_is_not_below_the_headers)
 {
   sbf_asset *asset = small_asset(), *loaded;
   asset->version = "1.2";
@@ -314,7 +314,7 @@ END_TEST
 
 /* --- memory and limits --- */
 
-START_TEST(test_every_failed_allocation_leaves_nothing)
+START_TEST(test_every_failed_allocation_frees_everything)
 {
   for (int store = 0; store < 2; store++) {
     sbf_asset *asset = fill_asset(&(fill_options){.seed = 2, .items = 200}), *loaded;
@@ -433,7 +433,7 @@ START_TEST(test_limits_at_and_past)
 END_TEST
 
 /* A chunk that claims to become huge is refused before anything is allocated for it. */
-START_TEST(test_a_bomb_does_not_go_off)
+START_TEST(test_decompression_bombs_are_refused)
 {
   sbf_asset *asset = sbf_asset_create(NULL), *loaded;
   sbf_texture texture;
@@ -543,22 +543,22 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("packed_load");
   TCase *tests = tcase_create("packed_load");
-  tcase_add_test(tests, test_every_field_comes_back);
+  tcase_add_test(tests, test_every_field_round_trips);
   tcase_add_test(tests, test_a_chunk_that_nothing_names);
   tcase_add_test(tests, test_stored_lists_are_used_in_place);
   tcase_add_test(tests, test_memory_that_is_not_aligned_is_copied);
-  tcase_add_test(tests, test_files_are_mapped_or_read_and_stay_as_long_as_the_asset);
+  tcase_add_test(tests, test_files_are_mapped_or_read_and_live_as_long_as_the_asset);
   tcase_add_test(tests, test_missing_and_wrong_files);
   tcase_add_test(tests, test_every_shorter_file_is_refused);
-  tcase_add_test(tests, test_every_damaged_byte_is_seen_with_checksums);
+  tcase_add_test(tests, test_checksums_detect_every_damaged_byte);
   tcase_add_loop_test(tests, test_damage_never_breaks_the_promise, 0, 8);
   tcase_add_test(tests, test_random_damage_of_a_filled_asset);
   tcase_add_test(tests, test_checksum_of_a_chunk_is_checked_on_request);
-  tcase_add_test(tests, test_the_version_is_at_least_that_of_the_header);
+  tcase_add_test(tests, test_the_version_is_not_below_the_headers);
   tcase_add_test(tests, test_numbers_of_a_mapped_list_are_checked);
-  tcase_add_test(tests, test_every_failed_allocation_leaves_nothing);
+  tcase_add_test(tests, test_every_failed_allocation_frees_everything);
   tcase_add_test(tests, test_limits_at_and_past);
-  tcase_add_test(tests, test_a_bomb_does_not_go_off);
+  tcase_add_test(tests, test_decompression_bombs_are_refused);
   tcase_add_test(tests, test_a_small_file_inflates_to_little);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -20,8 +20,8 @@ START_TEST(test_bytes_are_those_of_the_specification)
 }
 END_TEST
 
-/* Strips of triangles over large numbers, cut into blocks that begin anew but for the difference. */
-START_TEST(test_blocks_come_back)
+/* Strips of triangles with large indices, cut into blocks that restart the differences. */
+START_TEST(test_blocks_round_trip)
 {
   enum { COUNT = 3000 };
   static uint32_t values[COUNT], back[COUNT + 1];
@@ -58,7 +58,7 @@ START_TEST(test_new_scalars_fit_up_to_three_quarters)
 }
 END_TEST
 
-START_TEST(test_what_cannot_be_is_refused)
+START_TEST(test_impossible_blocks_are_refused)
 {
   uint32_t back[8];
   uint8_t block[32] = {1, 1, 1, 1, 1, 1, 1, SBFI_RECENT_COUNT};
@@ -77,9 +77,9 @@ int main(void) {
   Suite *suite = suite_create("packed_recent");
   TCase *tests = tcase_create("packed_recent");
   tcase_add_test(tests, test_bytes_are_those_of_the_specification);
-  tcase_add_test(tests, test_blocks_come_back);
+  tcase_add_test(tests, test_blocks_round_trip);
   tcase_add_test(tests, test_new_scalars_fit_up_to_three_quarters);
-  tcase_add_test(tests, test_what_cannot_be_is_refused);
+  tcase_add_test(tests, test_impossible_blocks_are_refused);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -95,7 +95,7 @@ static void expect_loads(const hand_made *r, uint16_t minor) {
   sbf_diagnostic error;
   sbf_status status = load_minor(r, minor, &asset, &error);
   ck_assert_msg(status == SBF_OK, "%s: %s", error.path, error.message);
-  ck_assert_str_eq(asset->version, SBF_FORMAT_VERSION); /* what it holds is no more than that */
+  ck_assert_str_eq(asset->version, SBF_FORMAT_VERSION); /* it has no parts of a newer version */
   sbf_asset_free(asset);
 }
 
@@ -149,7 +149,7 @@ START_TEST(test_fields_of_a_newer_version_are_passed_over)
   expect(&r, SBF_CODE_PACKED_RECORD, "/sbf");
   expect_loads(&r, SBFI_PACKED_MINOR + 1);
   r.size = 0;
-  put_text(&r, 1, "1.99", 4); /* whatever the header says */
+  put_text(&r, 1, "1.99", 4); /* with any header */
   expect_loads(&r, 99);
   expect_loads(&r, 0);
 }

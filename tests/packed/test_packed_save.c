@@ -105,7 +105,7 @@ START_TEST(test_default_asset_is_small)
 }
 END_TEST
 
-START_TEST(test_what_could_not_be_loaded_is_not_saved)
+START_TEST(test_assets_that_could_not_load_are_not_saved)
 {
   sbf_asset *asset = small_asset();
   sbf_diagnostic error;
@@ -126,7 +126,7 @@ START_TEST(test_what_could_not_be_loaded_is_not_saved)
 }
 END_TEST
 
-START_TEST(test_path_that_cannot_be_written)
+START_TEST(test_unwritable_path_is_refused)
 {
   sbf_asset *asset = small_asset();
   sbf_diagnostic error;
@@ -138,7 +138,7 @@ START_TEST(test_path_that_cannot_be_written)
 }
 END_TEST
 
-START_TEST(test_every_failed_allocation_leaves_nothing)
+START_TEST(test_every_failed_allocation_frees_everything)
 {
   for (int store = 0; store < 2; store++) {
     sbf_asset *asset = fill_asset(&(fill_options){.seed = 2, .items = 100});
@@ -190,9 +190,9 @@ int main(void) {
   tcase_add_test(tests, test_file_and_memory_have_the_same_bytes);
   tcase_add_test(tests, test_layout);
   tcase_add_test(tests, test_default_asset_is_small);
-  tcase_add_test(tests, test_what_could_not_be_loaded_is_not_saved);
-  tcase_add_test(tests, test_path_that_cannot_be_written);
-  tcase_add_test(tests, test_every_failed_allocation_leaves_nothing);
+  tcase_add_test(tests, test_assets_that_could_not_load_are_not_saved);
+  tcase_add_test(tests, test_unwritable_path_is_refused);
+  tcase_add_test(tests, test_every_failed_allocation_frees_everything);
   tcase_add_test(tests, test_every_failed_allocation_of_a_save_to_a_file);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

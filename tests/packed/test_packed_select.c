@@ -124,8 +124,8 @@ START_TEST(test_members_left_empty_select_all)
 }
 END_TEST
 
-/* What is left out may be damaged: it is not looked at. */
-START_TEST(test_chunks_left_out_are_not_touched)
+/* Unselected chunks may be damaged: they are not read. */
+START_TEST(test_unselected_chunks_are_not_read)
 {
   sbf_buffer file = small_file(false);
   const sbf_selection selection = {.kinds = LIST(char *const, "texture")};
@@ -212,7 +212,7 @@ START_TEST(test_outline)
 END_TEST
 
 /* The outline of a file is as little to be trusted as all else in it. */
-START_TEST(test_outline_that_lies)
+START_TEST(test_wrong_outline)
 {
   sbf_asset *asset = fill_asset(&(fill_options){.seed = 9, .items = 90}), *outline;
   sbf_buffer file;
@@ -251,8 +251,8 @@ START_TEST(test_outline_that_lies)
 }
 END_TEST
 
-/* A load of the whole that compares checksums looks at what it does not need as well. */
-START_TEST(test_checksums_of_what_is_not_read)
+/* A full load with checksums also checks the chunks that it does not need. */
+START_TEST(test_checksums_of_unread_chunks)
 {
   sbf_asset *asset = fill_asset(&(fill_options){.seed = 9, .items = 90}), *loaded;
   sbf_buffer file;
@@ -295,11 +295,11 @@ int main(void) {
   TCase *tests = tcase_create("packed_select");
   tcase_add_test(tests, test_section_tail_level_1);
   tcase_add_test(tests, test_members_left_empty_select_all);
-  tcase_add_test(tests, test_chunks_left_out_are_not_touched);
+  tcase_add_test(tests, test_unselected_chunks_are_not_read);
   tcase_add_test(tests, test_any_kind_alone_is_a_sound_asset);
   tcase_add_test(tests, test_outline);
-  tcase_add_test(tests, test_outline_that_lies);
-  tcase_add_test(tests, test_checksums_of_what_is_not_read);
+  tcase_add_test(tests, test_wrong_outline);
+  tcase_add_test(tests, test_checksums_of_unread_chunks);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -257,7 +257,7 @@ START_TEST(test_filters_are_for_scalars_of_four_bytes)
 }
 END_TEST
 
-START_TEST(test_unknown_chunks_that_are_not_critical_are_passed_over)
+START_TEST(test_unknown_optional_chunks_are_skipped)
 {
   make_file();
   uint32_t last = (uint32_t)patch_get(file.at, 40, 4) - 1;
@@ -270,7 +270,7 @@ START_TEST(test_unknown_chunks_that_are_not_critical_are_passed_over)
 }
 END_TEST
 
-START_TEST(test_a_newer_minor_version_may_use_what_is_reserved)
+START_TEST(test_a_newer_minor_version_may_use_reserved_fields)
 {
   make_file();
   patch_put(file.at, 10, 2, SBFI_PACKED_MINOR + 1);
@@ -313,8 +313,8 @@ int main(void) {
   tcase_add_test(tests, test_entry_faults);
   tcase_add_test(tests, test_a_chunk_over_the_table);
   tcase_add_test(tests, test_filters_are_for_scalars_of_four_bytes);
-  tcase_add_test(tests, test_unknown_chunks_that_are_not_critical_are_passed_over);
-  tcase_add_test(tests, test_a_newer_minor_version_may_use_what_is_reserved);
+  tcase_add_test(tests, test_unknown_optional_chunks_are_skipped);
+  tcase_add_test(tests, test_a_newer_minor_version_may_use_reserved_fields);
   tcase_add_test(tests, test_memory_and_size_limits);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

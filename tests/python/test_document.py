@@ -49,14 +49,14 @@ class Numbers(unittest.TestCase):
         back = array("f", [sbf_numbers.read_float(word.encode()) for word in nine_digits(numbers).split()])
         self.assertEqual(back.tobytes(), numbers.tobytes())
 
-    def test_what_is_no_number_is_refused(self):
+    def test_invalid_numbers_are_refused(self):
         for number in (math.inf, math.nan):
             with self.assertRaises(ValueError):
                 to_xml(Record("asset", environment=Record("environment", gravity=(0, number, 0))))
 
 
 class Documents(unittest.TestCase):
-    def test_samples_come_back_byte_for_byte(self):
+    def test_samples_round_trip_byte_for_byte(self):
         self.assertGreaterEqual(len(CANONICAL), 3)
         for path in CANONICAL:
             self.assertEqual(to_xml(from_xml(bytes_of(path))), bytes_of(path), path)
@@ -74,7 +74,7 @@ class Documents(unittest.TestCase):
         self.assertEqual(to_xml(asset).decode(), '<?xml version="1.0" encoding="UTF-8"?>\n<sbf version="1.0">\n'
                          '  <skeleton>\n    <bone id="hip" head="0 1 0"/>\n  </skeleton>\n</sbf>\n')
 
-    def test_lists_take_any_sequence(self):
+    def test_lists_accept_any_sequence(self):
         body = Record("soft_body", id="a", interior=[(0, 1, 2), (3, 4, 5)])
         self.assertEqual(body.interior, array("f", range(6)))
         with self.assertRaisesRegex(ValueError, "not a multiple of 3"):

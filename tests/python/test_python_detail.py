@@ -24,7 +24,7 @@ class Detail(unittest.TestCase):
         cls.asset = source.build()
         cls.model = runtime.Model(cls.asset, detail_levels=True)
 
-    def test_detail_levels_go_from_soft_to_away(self):
+    def test_detail_levels_range_from_soft_to_none(self):
         levels = detail.detail_levels(self.model)
         self.assertEqual(levels[0].kind, "soft")
         self.assertEqual([one.kind for one in levels[-2:]], ["bones", "away"])
@@ -47,10 +47,10 @@ class Detail(unittest.TestCase):
             self.assertGreater(begun, 0)
             self.assertEqual(detail.fade(lizard), 0)
 
-    def test_a_world_chooses_by_what_is_seen(self):
+    def test_a_world_chooses_levels_by_visibility(self):
         kinds = [one.kind for one in detail.detail_levels(self.model)]
         with runtime.World(runtime.flat(0.0), capacity=20) as world:
-            detail.choose(world, error_px=0.5, away_after_s=0.2)
+            detail.choose(world, error_px=0.5, offscreen_after_s=0.2)
             near, far, behind = (world.add(self.model, position=(0, 0, z)) for z in (2, 60, -30))
             mirrored = world.add(self.model, position=(1, 0, -1.5))
             behind.drive(forward=0.3)  # who stands asleep costs nothing as it is

@@ -82,7 +82,7 @@ class Calls(ModuleTest):
         self.assertEqual([one.code for one in printed], ["SURFACE_WINDING"])
         self.assertNotIn("SURFACE_WINDING", [one.code for one in fixed.validate().findings])
 
-    def test_versions_and_places(self):
+    def test_versions_and_paths(self):
         self.assertEqual(sbfmt.library_version(), "1.0")
         self.assertEqual(sbfmt.library_path(), os.environ["SBFMT_LIBRARY"])
 
@@ -106,7 +106,7 @@ class Calls(ModuleTest):
 
 
 class Errors(ModuleTest):
-    def test_errors_of_a_bad_file_name_what_and_where(self):
+    def test_errors_of_a_bad_file_name_cause_and_location(self):
         with self.assertRaises(sbfmt.Error) as caught:
             sbfmt.load(os.path.join(SAMPLES, "invalid", "bone_before_parent.sbf"))
         error = caught.exception
@@ -114,7 +114,7 @@ class Errors(ModuleTest):
                          ("BONE_ORDER", 4, "/sbf/skeleton/bone[1]/@parent", "input"))
         self.assertIn("bone_before_parent.sbf:4", str(error))
 
-    def test_the_machine_is_at_fault_otherwise(self):
+    def test_other_errors_are_system_errors(self):
         with self.assertRaises(sbfmt.Error) as caught:
             sbfmt.load(self.path("none.sbf"))
         self.assertEqual((caught.exception.code, caught.exception.fault), ("IO_CANNOT_READ", "call"))
@@ -122,7 +122,7 @@ class Errors(ModuleTest):
             sbfmt.load(os.path.join(SAMPLES, "valid", "minimal.sbf")).save(self.path("no/folder/a.sbf"))
         self.assertEqual(caught.exception.code, "IO_CANNOT_WRITE")
 
-    def test_an_extension_that_is_understood_is_taken(self):
+    def test_a_known_extension_is_accepted(self):
         path = os.path.join(SAMPLES, "invalid", "extension_required.sbf")
         with self.assertRaises(sbfmt.Error) as caught:
             sbfmt.load(path)
@@ -163,7 +163,7 @@ class Callbacks(ModuleTest):
             self.source.build(progress=lambda name, fraction: False)
         self.assertEqual(caught.exception.code, "CANCELLED")
 
-    def test_what_a_callback_raises_comes_out(self):
+    def test_exceptions_of_callbacks_are_raised(self):
         def progress(_name, _share):
             raise KeyError("mine")
         with self.assertRaises(KeyError):
@@ -188,7 +188,7 @@ class Binary(ModuleTest):
             found = getattr(mirrored, member).offset if member else ctypes.sizeof(mirrored)
             self.assertEqual(found, int(number), name)
 
-    def test_without_a_library_the_message_says_what_to_do(self):
+    def test_a_missing_library_gives_a_remedy(self):
         environment = {**os.environ, "SBFMT_LIBRARY": self.path("none"), "PYTHONPATH": MODULE}
         done = subprocess.run([sys.executable, "-B", "-c", "import sbfmt; sbfmt.library_path()"], env=environment,
                               capture_output=True, text=True, check=False)
@@ -196,7 +196,7 @@ class Binary(ModuleTest):
         self.assertIn("ImportError", done.stderr)
 
     def fault(self, content):
-        """What is said of a library that is such a file; None: of none."""
+        """The message for a library with such a file; None: for a missing library."""
         folder = self.path("lib")
         os.makedirs(folder, exist_ok=True)
         if content is not None:

@@ -50,7 +50,7 @@ class Jelly(unittest.TestCase):
         with self.assertRaises(sbfmt.Error):
             runtime.GroundMesh(array("f", [0, 0, 0]), [0, 1, 2])
 
-    def test_snapshots_give_the_same_bits_again(self):
+    def test_snapshots_restore_the_same_bits(self):
         with runtime.World(runtime.flat(0.0)) as world:
             jelly = world.add(self.model, position=(0, 0.2, 0))
             kept = world.snapshot()

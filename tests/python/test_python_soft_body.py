@@ -1,4 +1,4 @@
-"""Soft bodies through Python: their motion, impulses and forces, a vertex that is held and dragged, pins, stresses."""
+"""Soft bodies through Python: their motion, impulses and forces, a grabbed and dragged vertex, pins, stresses."""
 
 import os
 import sys
@@ -29,7 +29,7 @@ class SoftBody(unittest.TestCase):
     def world(self, model, **how):
         world = runtime.World(None, sleep_after=0, **how)
         self.addCleanup(world.close)
-        return world, world.add(model, position=(0, 1, 0), hold=True)  # beside no ground
+        return world, world.add(model, position=(0, 1, 0), hold_pose=True)  # beside no ground
 
     def step(self, world, ticks):
         for _ in range(ticks):
@@ -60,7 +60,7 @@ class SoftBody(unittest.TestCase):
             self.step(world, 10)
             self.assertAlmostEqual(self.momentum(one)[2], 3, delta=0.02)
 
-    def test_a_vertex_is_held_dragged_and_released(self):
+    def test_a_vertex_is_grabbed_dragged_and_released(self):
         world, one = self.world(self.loose, gravity=NO_GRAVITY)
         self.step(world, 1)
         origin = one.origin
@@ -68,16 +68,16 @@ class SoftBody(unittest.TestCase):
         self.assertEqual(soft_body.nearest_vertex(one, 0, at), 7)
         for lift in (0.1, 0.2):
             target = (at[0], at[1] + lift, at[2])
-            soft_body.hold(one, 0, 7, target)
+            soft_body.grab(one, 0, 7, target)
             self.step(world, 2)
-            self.assertGreater(soft_body.hold_force(one, 0, 7)[1], 0)
+            self.assertGreater(soft_body.grab_force(one, 0, 7)[1], 0)
             self.step(world, 90)
             self.assertAlmostEqual(one.origin[1] + one.surface(0)[3 * 7 + 1], target[1], delta=0.005)
         self.assertTrue(soft_body.release(one, 0, 7))
         self.assertFalse(soft_body.release(one, 0, 7))
-        self.assertEqual(soft_body.hold_force(one, 0, 7), (0, 0, 0))
+        self.assertEqual(soft_body.grab_force(one, 0, 7), (0, 0, 0))
 
-    def test_pins_bear_the_weight(self):
+    def test_pins_carry_the_weight(self):
         world, one = self.world(self.pinned)
         self.step(world, 600)
         pins = [pin for body in range(2) for pin in soft_body.pin_reactions(one, body)]
@@ -85,7 +85,7 @@ class SoftBody(unittest.TestCase):
         weight = GRAVITY * sum(soft_body.motion(one, body).mass for body in range(2))
         self.assertAlmostEqual(sum(pin.force[1] for pin in pins), weight, delta=0.01 * weight)
 
-    def test_elements_say_what_they_bear(self):
+    def test_elements_report_their_stress(self):
         world, one = self.world(self.pinned)
         self.step(world, 60)
         found = soft_body.tetrahedra(one, 0)
@@ -101,11 +101,11 @@ class SoftBody(unittest.TestCase):
         self.assertEqual(len(soft_body.tetrahedra(one, 0)), 0)
         self.assertGreater(sum(each.energy for each in found), 0)
 
-    def test_what_is_wrong_is_refused(self):
+    def test_wrong_values_are_refused(self):
         world, one = self.world(self.loose)
         self.step(world, 1)
         for call in (lambda: soft_body.apply_impulse(one, 99, (0, 1, 0)), lambda: soft_body.apply_impulse(one, 0, (float("nan"), 0, 0)),
-                     lambda: soft_body.hold(one, 0, 10 ** 6, (0, 0, 0)), lambda: soft_body.set_velocity(one, 99, (0, 0, 0))):
+                     lambda: soft_body.grab(one, 0, 10 ** 6, (0, 0, 0)), lambda: soft_body.set_velocity(one, 99, (0, 0, 0))):
             with self.assertRaises(sbfmt.Error):
                 call()
 

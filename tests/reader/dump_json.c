@@ -1,5 +1,5 @@
 /* Prints what the library reads from a file as the canonical JSON of spec/reader/sbf.py: every field of every
- * object in the order of field numbers, defaults included. Exit status: that of the load. */
+ * object in the order of field numbers, defaults included. Exit status: the status of the load. */
 #include <stdio.h>
 
 #include "base/base64.h"

@@ -15,7 +15,7 @@ class Reading(unittest.TestCase):
         self.assertEqual(read_float(b"1.000000059604644775390625"), 1.0)
         self.assertEqual(bits_of(read_float(b"1.000000178813934326171875")), bits_of(1.0) + 2)
 
-    def test_what_binary64_would_round_to_a_tie_is_no_tie(self):
+    def test_double_rounding_is_avoided(self):
         self.assertEqual(bits_of(read_float(b"1.00000005960464477539062500000000001")), bits_of(1.0) + 1)
         self.assertEqual(bits_of(read_float(b"1.00000017881393432617187499999999999")), bits_of(1.0) + 1)
 
@@ -25,7 +25,7 @@ class Reading(unittest.TestCase):
         self.assertEqual(bits_of(read_float(b"7.0064923216240853546187e-46")), 1)
         self.assertEqual(math.copysign(1.0, read_float(b"-1e-60")), -1.0)
 
-    def test_what_rounds_to_infinity_is_refused(self):
+    def test_numbers_that_round_to_infinity_are_refused(self):
         self.assertEqual(read_float(b"3.4028235677973362e38"), from_bits(0x7F7FFFFF))
         for word in (b"3.4028235677973367e38", b"-1e39", b"1e999", b"inf", b"nan", b"1_0", b"0x1", b"1e", b".", b""):
             with self.assertRaises(Fault):

@@ -76,7 +76,7 @@ class Samples(Comparison):
                 else:
                     self.assertEqual(second(path)[0], 1)
 
-    def test_the_program_prints_what_the_module_reads(self):
+    def test_the_program_prints_the_content_read_by_the_module(self):
         for name in ("valid/everything.sbf", "valid/jelly.sbf", "invalid/bone_before_parent.sbf"):
             path = os.path.join(SAMPLES, *name.split("/"))
             self.assertEqual(second_as_a_program(path), second(path), name)
@@ -85,7 +85,7 @@ class Samples(Comparison):
         self.assert_same_in_all_forms(example(self.class_folder.name))
 
     def test_invalid_samples_are_refused(self):
-        """By both, or where the fault is one of meaning that only `validate` finds, read by both alike."""
+        """Refused by both; or, if only `validate` finds the error, read by both with equal content."""
         samples = sorted(glob.glob(os.path.join(SAMPLES, "invalid", "*.sbf*")))
         refused = 0
         for path in samples:
@@ -99,7 +99,7 @@ class Samples(Comparison):
                 refused += 1
         self.assertGreaterEqual(refused, 40)
 
-    def test_what_a_reader_has_to_take(self):
+    def test_required_input_is_accepted(self):
         texts = {
             "space and signs": '<sbf  version="1.0"\n><environment\r\n wind=" +1 \t-.5\n2.e0 " control_tick="00.5"/></sbf>',
             "comments and CDATA": '<sbf version="1.0"><soft_body id="b"><interior>1<!-- c --> 2 <![CDATA[3]]> 4 5 6<?p?>7'

@@ -6,7 +6,7 @@
  * forks of the tests. */
 void opengl_probe(void);
 
-/* A checked fixture: ends each case as skipped where nothing can be drawn. */
+/* A checked fixture: skips each case on machines that cannot draw. */
 void opengl_needed(void);
 
 #endif

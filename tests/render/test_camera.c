@@ -36,7 +36,7 @@ START_TEST(box_fills_the_picture)
 }
 END_TEST
 
-START_TEST(points_that_are_not_finite_are_left_out)
+START_TEST(non_finite_points_are_left_out)
 {
   const sbf_vec3 points[] = {{0, 0, 0}, {NAN, 0, 0}, {0, INFINITY, 0}, {1, 1, 1}};
   draw_camera camera, plain;
@@ -108,7 +108,7 @@ START_TEST(bobbing_is_smoothed)
 }
 END_TEST
 
-START_TEST(steps_back_for_what_grows)
+START_TEST(steps_back_as_the_subject_grows)
 {
   const box3 big = {{-3, -3, -3}, {3, 3, 3}};
   draw_camera camera = framed_at(0, 0, 0), best;
@@ -158,11 +158,11 @@ int main(void) {
   Suite *suite = suite_create("camera");
   TCase *tests = tcase_create("camera");
   tcase_add_loop_test(tests, box_fills_the_picture, 0, 3);
-  tcase_add_test(tests, points_that_are_not_finite_are_left_out);
+  tcase_add_test(tests, non_finite_points_are_left_out);
   tcase_add_test(tests, front_is_towards_positive_z);
   tcase_add_test(tests, follows_a_walk);
   tcase_add_test(tests, bobbing_is_smoothed);
-  tcase_add_test(tests, steps_back_for_what_grows);
+  tcase_add_test(tests, steps_back_as_the_subject_grows);
   tcase_add_test(tests, frame_rate_does_not_matter);
   tcase_add_test(tests, orbit_keeps_the_subject_and_the_distance);
   suite_add_tcase(suite, tests);

@@ -20,7 +20,7 @@ static void check_colour(const uint8_t *rgb, int r, int g, int b) {
       "%d %d %d, not %d %d %d", rgb[0], rgb[1], rgb[2], r, g, b);
 }
 
-START_TEST(reads_back_what_was_drawn)
+START_TEST(reads_the_drawn_pixels)
 {
   uint8_t rgb[5 * 3 * 3];
   sbf_diagnostic error = {0};
@@ -95,7 +95,7 @@ int main(void) {
   Suite *suite = suite_create("canvas");
   TCase *tests = tcase_create("canvas");
   tcase_add_checked_fixture(tests, opengl_needed, NULL);
-  tcase_add_loop_test(tests, reads_back_what_was_drawn, 0, 2);
+  tcase_add_loop_test(tests, reads_the_drawn_pixels, 0, 2);
   tcase_add_test(tests, second_canvas_after_the_first);
   tcase_add_loop_test(tests, another_size, 0, 2);
   tcase_add_test(tests, largest_picture);

@@ -22,7 +22,7 @@ static sbf_vec3 normal_at(size_t i) {
   return ((const sbf_vec3 *)scene->normals.at)[i];
 }
 
-START_TEST(notes_hang_from_the_top)
+START_TEST(notes_start_at_the_top)
 {
   static const draw_camera camera = {.distance = 1, .half_height = 1};
   static const draw_colour red = {255, 0, 0, 255};
@@ -60,7 +60,7 @@ END_TEST
 
 /* Each corner has its own place in an image, also behind a triangle that is left out; shaded as without one.
  */
-START_TEST(corners_keep_their_places_in_the_image)
+START_TEST(corners_keep_their_uvs)
 {
   static const uint32_t three[9] = {0, 1, 2, 0, 9, 1, 0, 2, 3};
   const draw_transform transform = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {10, 0, 0}};
@@ -124,7 +124,7 @@ START_TEST(placed_mesh_is_turned_and_moved)
 }
 END_TEST
 
-START_TEST(far_lines_come_first)
+START_TEST(far_lines_are_drawn_first)
 {
   static const float depths[] = {3, -2, 7, 0, 5, -9, 1};
   enum { COUNT = 7 };
@@ -136,7 +136,7 @@ START_TEST(far_lines_come_first)
 }
 END_TEST
 
-START_TEST(far_veils_come_first)
+START_TEST(far_transparent_meshes_are_drawn_first)
 {
   static const float depths[] = {1, 4, -3};
   for (int i = 0; i < 3; i++) {
@@ -156,7 +156,7 @@ START_TEST(far_veils_come_first)
 }
 END_TEST
 
-START_TEST(sections_seen_through_are_one_skin)
+START_TEST(transparent_sections_are_drawn_as_one_skin)
 {
   draw_mesh section = square;
   section.transparency = DRAW_XRAY;
@@ -238,13 +238,13 @@ int main(void) {
   TCase *tests = tcase_create("draw_scene");
   tcase_add_checked_fixture(tests, set_up, tear_down);
   tcase_add_test(tests, index_out_of_range_is_left_out);
-  tcase_add_test(tests, notes_hang_from_the_top);
-  tcase_add_test(tests, corners_keep_their_places_in_the_image);
+  tcase_add_test(tests, notes_start_at_the_top);
+  tcase_add_test(tests, corners_keep_their_uvs);
   tcase_add_test(tests, corners_keep_their_normals);
   tcase_add_loop_test(tests, placed_mesh_is_turned_and_moved, 0, 2);
-  tcase_add_test(tests, far_lines_come_first);
-  tcase_add_test(tests, far_veils_come_first);
-  tcase_add_test(tests, sections_seen_through_are_one_skin);
+  tcase_add_test(tests, far_lines_are_drawn_first);
+  tcase_add_test(tests, far_transparent_meshes_are_drawn_first);
+  tcase_add_test(tests, transparent_sections_are_drawn_as_one_skin);
   tcase_add_test(tests, solid_meshes_of_one_material_are_one_part);
   tcase_add_test(tests, marks_are_framed_but_not_rings);
   tcase_add_test(tests, steady_frames_allocate_nothing);

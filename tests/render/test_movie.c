@@ -112,7 +112,7 @@ START_TEST(ffmpeg_fails)
 }
 END_TEST
 
-/* Noise, of which a film needs more room than there is. ffmpeg exits with 0 then for some kinds. */
+/* Noise: its film needs more space than the disk has. ffmpeg then exits with 0 for some formats. */
 START_TEST(disk_is_full)
 {
   static const char *const names[] = {"full.gif", "full.mp4", "full.webp"};
@@ -217,7 +217,7 @@ START_TEST(film_without_a_frame)
 }
 END_TEST
 
-START_TEST(place_that_cannot_be_written)
+START_TEST(unwritable_path)
 {
   draw_movie *movie;
   sbf_diagnostic error = {0};
@@ -237,7 +237,7 @@ int main(void) {
   tcase_add_loop_test(tests, interrupted, 0, 3);
   tcase_add_loop_test(tests, wrong_calls, 0, 6);
   tcase_add_test(tests, film_without_a_frame);
-  tcase_add_test(tests, place_that_cannot_be_written);
+  tcase_add_test(tests, unwritable_path);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

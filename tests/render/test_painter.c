@@ -66,7 +66,7 @@ static void add_square(float x, float y, float z, float half, uint32_t hex, floa
                                  .transparency = transparency});
 }
 
-START_TEST(triangle_in_its_place)
+START_TEST(triangle_at_its_pixels)
 {
   const sbf_vec3 corners[3] = {{-1.4f, 0.1f, 0}, {-0.2f, 0.1f, 0}, {-1.4f, 0.9f, 0}};
   static const uint32_t both_sides[2][3] = {{0, 1, 2}, {0, 2, 1}};
@@ -93,7 +93,7 @@ START_TEST(nearer_hides_farther)
 }
 END_TEST
 
-START_TEST(xray_shows_what_is_inside)
+START_TEST(xray_shows_the_inside)
 {
   add_square(0, 0, 1, 0.8f, 0x20c020, _i ? DRAW_XRAY : 0);
   draw_colour red = draw_colour_rgb(0xe00000);
@@ -186,7 +186,7 @@ START_TEST(image_repeats_and_is_multiplied)
 }
 END_TEST
 
-START_TEST(veil_has_no_image)
+START_TEST(xray_mesh_has_no_image)
 {
   static uint8_t plain[sizeof rgb];
   draw_image *image = four_colours();
@@ -201,7 +201,7 @@ START_TEST(veil_has_no_image)
 }
 END_TEST
 
-START_TEST(deep_inside_a_veil_is_dimmer)
+START_TEST(deep_inside_an_xray_mesh_is_dimmer)
 {
   draw_colour red = draw_colour_rgb(0xe00000);
   add_square(0, 0, 1, 0.9f, 0x20c020, DRAW_XRAY);
@@ -212,7 +212,7 @@ START_TEST(deep_inside_a_veil_is_dimmer)
 }
 END_TEST
 
-START_TEST(marks_are_over_what_hides_them)
+START_TEST(marks_are_drawn_over_objects)
 {
   draw_colour blue = draw_colour_rgb(0x0000e0);
   add_square(0, 0, 1, 0.9f, 0xc02020, _i ? DRAW_XRAY : 0);
@@ -261,7 +261,7 @@ START_TEST(line_behind_the_eye_is_cut)
 }
 END_TEST
 
-START_TEST(ground_is_dark_under_what_stands_on_it)
+START_TEST(ground_is_dark_under_objects)
 {
   camera.pitch = 0.5f;
   draw_scene_set_floor(scene, -0.4f);
@@ -272,7 +272,7 @@ START_TEST(ground_is_dark_under_what_stands_on_it)
 }
 END_TEST
 
-/* Of what is solid, too, which throws shadows on itself. */
+/* Also of solid objects, which cast shadows on themselves. */
 START_TEST(same_scene_same_picture)
 {
   static uint8_t first[sizeof rgb];
@@ -310,7 +310,7 @@ START_TEST(facets_that_face_the_eye_are_no_edges)
 }
 END_TEST
 
-START_TEST(what_is_not_finite_does_no_harm)
+START_TEST(non_finite_values_are_ignored)
 {
   const sbf_vec3 corners[4] = {{NAN, 0, 0}, {INFINITY, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
   static const uint32_t triangles[6] = {0, 1, 2, 1, 2, 3};
@@ -342,22 +342,22 @@ int main(void) {
   TCase *tests = tcase_create("painter");
   tcase_add_checked_fixture(tests, opengl_needed, NULL);
   tcase_add_checked_fixture(tests, set_up, tear_down);
-  tcase_add_loop_test(tests, triangle_in_its_place, 0, 2);
+  tcase_add_loop_test(tests, triangle_at_its_pixels, 0, 2);
   tcase_add_test(tests, nearer_hides_farther);
-  tcase_add_loop_test(tests, xray_shows_what_is_inside, 0, 2);
+  tcase_add_loop_test(tests, xray_shows_the_inside, 0, 2);
   tcase_add_test(tests, image_is_upright);
   tcase_add_test(tests, images_stay_on_their_meshes);
   tcase_add_test(tests, image_repeats_and_is_multiplied);
-  tcase_add_test(tests, veil_has_no_image);
-  tcase_add_test(tests, deep_inside_a_veil_is_dimmer);
-  tcase_add_loop_test(tests, marks_are_over_what_hides_them, 0, 2);
+  tcase_add_test(tests, xray_mesh_has_no_image);
+  tcase_add_test(tests, deep_inside_an_xray_mesh_is_dimmer);
+  tcase_add_loop_test(tests, marks_are_drawn_over_objects, 0, 2);
   tcase_add_test(tests, prints_lie_on_the_ground);
   tcase_add_test(tests, nearer_lines_are_over_farther);
   tcase_add_test(tests, line_behind_the_eye_is_cut);
-  tcase_add_test(tests, ground_is_dark_under_what_stands_on_it);
+  tcase_add_test(tests, ground_is_dark_under_objects);
   tcase_add_loop_test(tests, same_scene_same_picture, 0, 2);
   tcase_add_loop_test(tests, facets_that_face_the_eye_are_no_edges, 0, 2);
-  tcase_add_test(tests, what_is_not_finite_does_no_harm);
+  tcase_add_test(tests, non_finite_values_are_ignored);
   tcase_add_test(tests, empty_scene_is_a_backdrop);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -46,7 +46,7 @@ START_TEST(out_of_range_is_clamped)
 }
 END_TEST
 
-START_TEST(kinds_look_different)
+START_TEST(kinds_have_different_colors)
 {
   for (int a = 0; a < DRAW_SPRING_STYLE_COUNT; a++)
     for (int b = 0; b < a; b++) {
@@ -64,7 +64,7 @@ int main(void) {
   tcase_add_test(tests, sequential_grows_lighter);
   tcase_add_test(tests, diverging_is_even_about_rest);
   tcase_add_test(tests, out_of_range_is_clamped);
-  tcase_add_test(tests, kinds_look_different);
+  tcase_add_test(tests, kinds_have_different_colors);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -52,7 +52,7 @@ START_TEST(replaces_an_older_file)
 }
 END_TEST
 
-START_TEST(folder_that_is_not_there)
+START_TEST(missing_folder)
 {
   sbf_diagnostic error = {0};
   const char *path = harness_scratch("no/such/folder/picture.png");
@@ -122,7 +122,7 @@ int main(void) {
   TCase *tests = tcase_create("picture");
   tcase_add_test(tests, reads_back_the_same);
   tcase_add_test(tests, replaces_an_older_file);
-  tcase_add_test(tests, folder_that_is_not_there);
+  tcase_add_test(tests, missing_folder);
   tcase_add_test(tests, path_is_a_folder);
   tcase_add_test(tests, full_device);
   tcase_add_test(tests, libpng_prints_nothing);

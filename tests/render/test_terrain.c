@@ -52,8 +52,8 @@ START_TEST(stairs_stay_sharp)
 }
 END_TEST
 
-/* What is near stays where it is when the middle moves on: else the ground would swim. */
-START_TEST(grid_keeps_to_its_places)
+/* Nearby vertices keep their positions when the centre moves: otherwise the ground would appear to move. */
+START_TEST(grid_lines_keep_their_positions)
 {
   draw_scene *scene = draw_scene_create();
   float cell = 4.0f / 168;
@@ -67,7 +67,7 @@ START_TEST(grid_keeps_to_its_places)
 }
 END_TEST
 
-START_TEST(no_place_no_ground)
+START_TEST(invalid_terrain_draws_nothing)
 {
   draw_scene *scene = draw_scene_create();
   draw_scene_set_terrain(scene, hills, NULL, NAN, 0, 4);
@@ -82,8 +82,8 @@ int main(void) {
   TCase *tests = tcase_create("terrain");
   tcase_add_test(tests, vertices_lie_on_the_ground);
   tcase_add_test(tests, stairs_stay_sharp);
-  tcase_add_test(tests, grid_keeps_to_its_places);
-  tcase_add_test(tests, no_place_no_ground);
+  tcase_add_test(tests, grid_lines_keep_their_positions);
+  tcase_add_test(tests, invalid_terrain_draws_nothing);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -53,7 +53,7 @@ def reach(calls, start):
 
 
 def circles_of(calls):
-    """Sets of files each of which calls, by way of others, each."""
+    """Sets of files that call each other, directly or through others."""
     reached = {path: reach(calls, path) for path in calls}
     return sorted({frozenset(other for other in reached[path] if path in reached[other])
                    for path in calls if path in reached[path]}, key=sorted)

@@ -80,7 +80,7 @@ def word_faults(text):
 
 
 def size_faults(sizes, words):
-    """What is larger than people read or clone. sizes: bytes by path; words: number of words by document."""
+    """Files above the size limits. sizes: bytes by path; words: number of words by document."""
     pages = sum(count for path, count in words.items() if path.startswith("docs/"))
     specification = sum(count for path, count in words.items() if re.fullmatch(r"spec/[^/]+", path))
     media = sum(size for path, size in sizes.items() if path.lower().endswith(MEDIA))

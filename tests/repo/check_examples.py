@@ -36,7 +36,7 @@ def make_bundle(program, folder):
 
 
 def run_faults(path, here, program, libraries):
-    """Built as C and as C++, what they print of the same bundle."""
+    """Output of the programs, built as C and as C++, for the same bundle."""
     faults, printed = [], {}
     with tempfile.TemporaryDirectory() as folder:
         bundle = make_bundle(program, folder)

@@ -145,7 +145,7 @@ def resolve(path, name, files):
 
 
 def faults_of(path, text, files):
-    """What is wrong with the includes of one file; `files` is the set of all of the project's."""
+    """Errors in the includes of one file; `files` is the set of all files of the project."""
     if path.startswith("tests/"):
         return []
     faults = []

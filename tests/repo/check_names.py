@@ -30,12 +30,18 @@ PRIVATE_WORDS = {
     "hindmost": "rearmost", "girdle": "limb_root", "leveller": "level_maker", "lonely": "boundary or isolated",
     "adrift": "unpinned", "dearer": "costlier", "dearest": "costliest", "hitch": "slow frame", "easel": "canvas",
     "traveller": "translated_bone", "tells": "reports", "mends": "repairs", "mender": "repair reporter", "heeds": "applies",
-    "judged": "checked", "felt": "effect"}
+    "judged": "checked", "felt": "effect", "mendable": "repairable"}
+# Words that the names of tests may not contain either: they name behaviour by other words than the code does.
+TEST_WORDS = {
+    "what": "the subject", "whatever": "any", "anew": "again", "alike": "equally", "likewise": "too", "otherwise": "the condition",
+    "hung": "attached", "bears": "supports or carries", "bear": "support or carry", "lies": "rests", "knows": "has", "knew": "had",
+    "speaks": "shows", "dies": "becomes unstable", "die": "become unstable", "let": "released", "lets": "allows", "say": "report",
+    "says": "reports"}
 # Names of the format, its diagnostics and systems.
 KNOWN_NAMES = {
     "substeps_least", "substeps_most", "SBF_CODE_UNIT_LOOKS_WRONG", "SBF_CODE_DENSITY_LOOKS_WRONG",
     "SBF_CODE_GRAVITY_LOOKS_WRONG", "SBF_CODE_RIG_OBJECT_APART", "FILE_SHARE_READ", "FILE_SHARE_WRITE",
-    "FILE_SHARE_DELETE", "mends_files", "settle", "most_substeps", "volume_least", "uneven_volume_least", "uneven_distance_share"}
+    "FILE_SHARE_DELETE", "most_substeps", "volume_least", "uneven_volume_least", "uneven_distance_share"}
 # Scripts whose identifiers are checked like those of the C code.
 SCRIPTS = ("exporters/", "bench/", "examples/", "cmake/")
 # Phrases whose words are the field's: stripped before the words are looked for.
@@ -55,6 +61,14 @@ def name_faults_of(path, text):
     names.add(path.rsplit("/", 1)[-1].rsplit(".", 1)[0])
     found = {(name, word) for name in names for word in PHRASES.sub("", name.lower()).split("_") if word in PRIVATE_WORDS}
     return [f"{path}: '{name}' holds '{word}': say '{PRIVATE_WORDS[word]}', or what it is" for name, word in sorted(found)]
+
+
+def faults_of_test_names(path, text):
+    """Words in the names of tests that do not say plainly what behaviour they test."""
+    words = {**PRIVATE_WORDS, **TEST_WORDS}
+    names = re.findall(r"^START_TEST\((\w+)\)", text, re.MULTILINE) + re.findall(r"^ *def (test_\w+)", text, re.MULTILINE)
+    found = {(name, word) for name in names for word in PHRASES.sub("", name).split("_") if word in words}
+    return [f"{path}: test '{name}' has '{word}': say '{words[word]}'" for name, word in sorted(found)]
 
 
 def faults_of(lines_of):
@@ -78,6 +92,8 @@ def main():
             path.endswith(".py") and path.startswith(SCRIPTS)
         if is_checked and not is_generated(path):
             faults += name_faults_of(path, text)
+        if path.startswith("tests/") and path.endswith((".c", ".py")):
+            faults += faults_of_test_names(path, text)
     conclude(f"names and sizes of {len(texts)} files", faults)
 
 

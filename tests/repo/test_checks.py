@@ -141,6 +141,12 @@ class Names(unittest.TestCase):
         for text in ("least_size = 1\n", "def f(guest):\n    pass\n", "a.told = 2\n"):
             self.assertEqual(len(check_names.name_faults_of("bench/a.py", text)), 1, text)
 
+    def test_names_of_tests(self):
+        good = "START_TEST(pins_carry_load)\n    def test_lists_are_used_in_place(self):\n"
+        self.assertEqual(check_names.faults_of_test_names("tests/a.c", good), [])
+        for text in ("START_TEST(what" "_is_pinned_stays)\n", "    def test_pins_be" "ar_load(self):\n"):
+            self.assertEqual(len(check_names.faults_of_test_names("tests/a.c", text)), 1, text)
+
 
 class Words(unittest.TestCase):
     def test_words(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The list of mutants: what is read, applied and refused. Whether its texts are still in the source, `./run mutants --check` says."""
+"""The list of mutants: reading, applying and refusing it. `./run mutants --check` checks that its texts are still in the source."""
 import os
 import sys
 import tempfile
@@ -53,14 +53,14 @@ class List(unittest.TestCase):
         self.assertEqual(other.apply(SOURCE), SOURCE.replace("second(void) { return 1; }", "second(void) {  }"))
         self.assertEqual(check_mutants([one, other], self.folder), [])
 
-    def test_what_no_longer_fits_is_named(self):
+    def test_outdated_mutants_are_named(self):
         for change, message in ((("x + y", "x * y"), "no longer has the text 'x * y'"), (("under    second\n", ""), "2 times"),
                                 (("under    second", "under    third"), "no longer has the text 'third'"),
                                 (("tools/a.c", "tools/b.c"), "no file tools/b.c"), (("base/test_text", "base/test_gone"), "no test base/test_gone")):
             faults = check_mutants(self.read(GOOD.replace(*change)), self.folder)
             self.assertTrue(faults and any(message in fault for fault in faults), (change, faults))
 
-    def test_a_list_that_is_none_is_refused(self):
+    def test_an_invalid_list_is_refused(self):
         for change, message in ((("before ", "bevor  "), "'bevor'"), (("file     tools/a.c\nbefore", "before"), "no 'file'"),
                                 (("tools/a.c", "docs/a.c"), "none of the folders"), (("x - y", "x + y"), "are the same"),
                                 (("tests    base/test_text\n\n", "tests    base/test_text\n"), "twice")):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""./run: its calls, and what it does about missing packages, on a machine made of pretended commands."""
+"""./run: its calls and its handling of missing packages, on a machine of simulated commands."""
 import contextlib
 import io
 import os
@@ -18,7 +18,7 @@ import make_packages  # noqa: E402
 RUN = os.path.join(ROOT, "run")
 REAL = ("sh", "dirname", "cat", "sed", "env", "grep", "nproc", "mkdir", "awk", "wc", "date", "tail", "head", "true",
         "mktemp", "tee", "rm")
-# apt-get that has lists of packages, or none until it updates them; it notes what it is asked to install.
+# apt-get that has lists of packages, or none until it updates them; it records the packages that it is asked to install.
 WITH_LISTS = 'case $1 in indextargets) echo list ;; *) echo "apt-get $*"; exit 7 ;; esac'
 WITHOUT_LISTS = '''here=$(dirname "$0")
 case "$*" in indextargets*) cat "$here/lists" 2>/dev/null ;; *update*) echo list >"$here/lists" ;; *) echo "apt-get $*"; exit 7 ;; esac'''

@@ -82,7 +82,7 @@ class Site(unittest.TestCase):
 
 @unittest.skipUnless(PYTHON, "markdown-it-py is not installed (Debian: python3-markdown-it)")
 class Links(unittest.TestCase):
-    def test_code_keeps_what_looks_like_a_link(self):
+    def test_code_keeps_texts_like_links(self):
         code = ("import sys; sys.path.insert(0, sys.argv[1]); import make_site; site = make_site.Site(sys.argv[2]);"
                 "print(site.converted('docs/x.md', '`a[i](j)` [g](gait.md#b) [n](none.md)\\n## A `b`\\n## A b')); print(site.faults)")
         with tempfile.TemporaryDirectory() as folder:

@@ -6,7 +6,7 @@
 #include "scenes.h"
 
 /* A square sheet of `side` metres about `center`, level, of cells x cells squares with diagonals, 0.2 kg/m^2;
- * its surface has the polygons. `pinned`: its rim is held by the world. */
+ * its surface has the polygons. `pinned`: its rim is pinned to the world. */
 sbf_level *collision_sheet(scene *s, uint32_t body, sbf_vec3 center, float side, uint32_t cells, bool pinned);
 
 /* A surface of squares over points that stand in rows of so many columns. */

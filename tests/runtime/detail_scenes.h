@@ -19,7 +19,7 @@ enum { RUNG_VERTICES = 512 };
 uint32_t detail_scene_skin(const scene *s, sbf_vec3 *positions);
 /* The farthest that two are apart, m. */
 double detail_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count);
-/* The same of the skins of two scenes that began alike, and so many ticks of both. */
+/* The same for the skins of two scenes with equal beginnings, after so many ticks of both. */
 double detail_scene_apart(const scene *a, const scene *b);
 void detail_scene_ticks(scene *a, scene *b, int ticks);
 /* J of the body: elastic, kinetic. */

@@ -1,4 +1,4 @@
-/* Bodies of a host's own physics that have a mass, for the tests of what touches them. */
+/* Bodies of a host's own physics with a mass, for tests of contacts with them. */
 #ifndef TEST_HOST_BODIES_H
 #define TEST_HOST_BODIES_H
 

@@ -1,4 +1,4 @@
-/* The host's tasks on threads that are started anew for each batch, last index first. */
+/* The host's tasks on threads that are started for each batch, last index first. */
 #ifndef TEST_HOST_THREADS_H
 #define TEST_HOST_THREADS_H
 

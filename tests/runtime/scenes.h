@@ -29,7 +29,7 @@ void scene_start(scene *s);
 void scene_start_on_slope(scene *s, double angle);
 void scene_free(scene *s);
 
-/* A level of bare points: positions, masses in kg and springs; nothing is held and nothing damped. */
+/* A level of bare points: positions, masses in kg and springs, without pins and damping. */
 sbf_level *scene_points(
     scene *s, uint32_t body, const sbf_vec3 *positions, const float *masses, uint32_t count);
 void scene_springs(scene *s, sbf_level *level, const sbf_uint2 *ends, const float *stiffness, uint32_t count);
@@ -47,13 +47,13 @@ void scene_bone(scene *s, sbf_vec3 head);
 
 /* A closed box of `size` about `center` as a section of bone 0 (which scene_bone made): `cells` quads along
  * each edge, springs over and inside it by the thesis's method, stiffness as sbfmt/mechanics.h gives it. The
- * interior is held by the bone. */
+ * interior is pinned to the bone. */
 void scene_section(scene *s, uint32_t body, sbf_vec3 center, sbf_vec3 size, uint32_t cells);
 /* A render mesh over the section's surface, carried by it, without normals. */
 void scene_skin(scene *s, uint32_t body);
 
 /* A level of tetrahedra, the box's points, masses and modulus; Poisson's ratio is the body's. Points without
- * mass are held by the world. */
+ * mass are pinned to the world. */
 sbf_level *scene_lattice(scene *s, uint32_t body, const lattice_box *box);
 
 /* A level of points on a grid of so many along each axis, `step` m apart from `low` on, that matches shapes:

@@ -46,7 +46,7 @@ static const stack stacks[STACKS] = {{2, {1, 100}, {0.2f, 0.2f}, 1e-3f}, {2, {1,
     {10, {1, 1, 1, 1, 1, 1, 1, 1, 1, 100}, {0.2f, 0.2f, 0.2f, 0.2f, 0.2f, 0.2f, 0.2f, 0.2f, 0.2f, 0.2f},
         1e-3f}};
 
-START_TEST(light_boxes_bear_heavy_ones)
+START_TEST(light_boxes_carry_heavy_ones)
 {
   const stack *t = &stacks[_i];
   scene s = begin();
@@ -91,7 +91,7 @@ int main(void) {
   Suite *s = suite_create("active contacts");
   TCase *c = tcase_create("active contacts");
   tcase_set_timeout(c, 60);
-  tcase_add_loop_test(c, light_boxes_bear_heavy_ones, 0, STACKS);
+  tcase_add_loop_test(c, light_boxes_carry_heavy_ones, 0, STACKS);
   tcase_add_loop_test(c, heaps_of_unlike_boxes_rest, 0, 4);
   suite_add_tcase(s, c);
   return harness_run(s);

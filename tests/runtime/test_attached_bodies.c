@@ -8,7 +8,7 @@
 #include "state/world.h"
 
 enum { ACROSS = 5, HIGH = 3, DEEP = 3, POINTS = ACROSS * HIGH * DEEP };
-/* Of the bone with the flesh; the other one is what it hangs on. */
+/* Of the bone with the flesh; the other is its parent. */
 enum { TRUNK, LIMB };
 
 typedef struct limb {
@@ -114,7 +114,7 @@ static double kinetic(const scene *s) {
   return sum;
 }
 
-START_TEST(nothing_swings_up)
+START_TEST(a_hit_does_not_increase_the_motion)
 {
   scene s = limb_of(&limbs[_i], 0);
   scene_start(&s);
@@ -131,7 +131,7 @@ END_TEST
 /* What nothing takes stays, nine seconds long, and nothing is added: at ten times the hit what is crushed
  * takes some, and what is wild is calmed. The slack is what the halves of a step, at which places and
  * velocities are known, leave open. */
-START_TEST(an_undamped_soft_body_keeps_its_energy)
+START_TEST(an_undamped_soft_body_conserves_energy)
 {
   static const int which[] = {2, 3, 6, 8};
   static const float hits[] = {1, 10};
@@ -159,7 +159,7 @@ static float separation(sbf_vec3 a, sbf_vec3 b) {
 
 /* Against steps as many as all would need, a quarter of those asked for in flight: bones and flesh go the
  * same way. */
-START_TEST(it_moves_as_in_fine_steps)
+START_TEST(it_moves_as_with_fine_steps)
 {
   scene s = limb_of(&limbs[_i], -9.81f), fine = limb_of(&limbs[_i], -9.81f);
   fine.model_options.rigid_substeps = 256;
@@ -185,9 +185,9 @@ int main(void) {
   Suite *suite = suite_create("borne flesh");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, momentum_is_kept, 0, LIMBS);
-  tcase_add_loop_test(tests, nothing_swings_up, 0, LIMBS);
-  tcase_add_loop_test(tests, it_moves_as_in_fine_steps, 0, 4);
-  tcase_add_loop_test(tests, an_undamped_soft_body_keeps_its_energy, 0, 8);
+  tcase_add_loop_test(tests, a_hit_does_not_increase_the_motion, 0, LIMBS);
+  tcase_add_loop_test(tests, it_moves_as_with_fine_steps, 0, 4);
+  tcase_add_loop_test(tests, an_undamped_soft_body_conserves_energy, 0, 8);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

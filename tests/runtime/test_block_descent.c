@@ -41,7 +41,7 @@ static float hangs_at(float young) {
   return y;
 }
 
-START_TEST(it_hangs_where_the_energy_is_least)
+START_TEST(it_hangs_at_the_minimum_of_energy)
 {
   float expected = hangs_at(1e6f);
   scene s = make_beam(1e6f, SBF_SCHEME_BLOCK_DESCENT, 10);
@@ -90,7 +90,7 @@ START_TEST(it_damps_as_implicit_euler_does)
 END_TEST
 
 /* Stiffer than any explicit step would take, scrambled, and turned inside out. */
-START_TEST(nothing_is_too_stiff)
+START_TEST(any_stiffness_is_stable)
 {
   scene s = make_beam(1e8f, SBF_SCHEME_BLOCK_DESCENT, 3);
   sbri_point *x = sbri_positions(sbri_character_of(s.world, s.character));
@@ -114,7 +114,7 @@ START_TEST(nothing_is_too_stiff)
 }
 END_TEST
 
-START_TEST(points_of_a_block_share_no_element)
+START_TEST(points_of_a_block_have_no_common_element)
 {
   scene s = make_beam(1e6f, SBF_SCHEME_BLOCK_DESCENT, 0);
   const sbri_island *island = &s.model->islands[0];
@@ -145,7 +145,7 @@ START_TEST(points_of_a_block_share_no_element)
 }
 END_TEST
 
-START_TEST(every_width_gives_the_same_bits)
+START_TEST(every_lane_width_gives_the_same_bits)
 {
   uint64_t hash = 0;
   for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++) {
@@ -182,7 +182,7 @@ START_TEST(every_width_gives_the_same_bits)
 }
 END_TEST
 
-START_TEST(what_yields_is_refused)
+START_TEST(yielding_materials_are_refused)
 {
   scene s = scene_begin();
   lattice_box box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 1, 1}, 1, 1, 1, 1000, 1e5f, 0.4f);
@@ -200,12 +200,12 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("block descent");
   TCase *c = tcase_create("block descent");
-  tcase_add_test(c, it_hangs_where_the_energy_is_least);
+  tcase_add_test(c, it_hangs_at_the_minimum_of_energy);
   tcase_add_test(c, it_damps_as_implicit_euler_does);
-  tcase_add_loop_test(c, nothing_is_too_stiff, 0, 2);
-  tcase_add_test(c, points_of_a_block_share_no_element);
-  tcase_add_test(c, every_width_gives_the_same_bits);
-  tcase_add_test(c, what_yields_is_refused);
+  tcase_add_loop_test(c, any_stiffness_is_stable, 0, 2);
+  tcase_add_test(c, points_of_a_block_have_no_common_element);
+  tcase_add_test(c, every_lane_width_gives_the_same_bits);
+  tcase_add_test(c, yielding_materials_are_refused);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

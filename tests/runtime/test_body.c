@@ -28,7 +28,7 @@ static void expect_turn(float yaw, float fraction, float side) {
   ck_assert_float_ge(side * yaw, 0.9f * turn);
 }
 
-START_TEST(hips_turn_with_the_line_between_the_feet)
+START_TEST(hips_rotate_with_the_line_between_the_feet)
 {
   static const float headings[3] = {0, 1.1f, -2.7f}, fractions[3] = {0.5f, 1, 0};
   gait_stage s;
@@ -46,7 +46,7 @@ START_TEST(hips_turn_with_the_line_between_the_feet)
 }
 END_TEST
 
-START_TEST(the_chest_turns_with_the_fore_feet_or_with_the_hips)
+START_TEST(the_chest_rotates_with_the_fore_feet_or_the_hips)
 {
   gait_stage s;
   gait_stage_begin(&s, quadruped_asset());
@@ -62,7 +62,7 @@ START_TEST(the_chest_turns_with_the_fore_feet_or_with_the_hips)
 }
 END_TEST
 
-START_TEST(crossed_feet_do_not_turn_the_hips_round)
+START_TEST(crossed_feet_do_not_reverse_the_hips)
 {
   gait_stage s;
   gait_stage_begin(&s, quadruped_asset());
@@ -106,7 +106,7 @@ START_TEST(a_raised_body_comes_down_smoothly)
 }
 END_TEST
 
-START_TEST(bones_turn_so_as_it_walks)
+START_TEST(bones_rotate_so_as_it_walks)
 {
   gait_stage s;
   gait_stage_begin(&s, quadruped_asset());
@@ -133,11 +133,11 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("body");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, hips_turn_with_the_line_between_the_feet, 0, 3);
-  tcase_add_test(tests, the_chest_turns_with_the_fore_feet_or_with_the_hips);
-  tcase_add_test(tests, crossed_feet_do_not_turn_the_hips_round);
+  tcase_add_loop_test(tests, hips_rotate_with_the_line_between_the_feet, 0, 3);
+  tcase_add_test(tests, the_chest_rotates_with_the_fore_feet_or_the_hips);
+  tcase_add_test(tests, crossed_feet_do_not_reverse_the_hips);
   tcase_add_test(tests, a_raised_body_comes_down_smoothly);
-  tcase_add_loop_test(tests, bones_turn_so_as_it_walks, 0, 2);
+  tcase_add_loop_test(tests, bones_rotate_so_as_it_walks, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

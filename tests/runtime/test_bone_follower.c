@@ -71,7 +71,7 @@ START_TEST(a_step_of_the_pose_is_followed_exactly_at_any_tick)
 }
 END_TEST
 
-START_TEST(what_is_placed_anew_does_not_swing)
+START_TEST(a_teleported_character_does_not_swing)
 {
   gait_stage s;
   begin(&s, SBF_FOLLOWER_CHANNEL_ROTATION, 1.0f / 60, 1);
@@ -85,7 +85,7 @@ START_TEST(what_is_placed_anew_does_not_swing)
 }
 END_TEST
 
-START_TEST(a_larger_copy_follows_alike)
+START_TEST(a_larger_copy_follows_equally)
 {
   gait_stage small, large;
   begin(&small, SBF_FOLLOWER_CHANNEL_POSITION, 1.0f / 60, 1);
@@ -102,8 +102,8 @@ int main(void) {
   Suite *suite = suite_create("bone_follower");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_step_of_the_pose_is_followed_exactly_at_any_tick);
-  tcase_add_test(tests, what_is_placed_anew_does_not_swing);
-  tcase_add_test(tests, a_larger_copy_follows_alike);
+  tcase_add_test(tests, a_teleported_character_does_not_swing);
+  tcase_add_test(tests, a_larger_copy_follows_equally);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

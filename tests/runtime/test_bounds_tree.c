@@ -12,7 +12,7 @@ static float random_of(uint32_t *seed) {
 }
 
 /* Every box that meets the one asked for is found, once. */
-START_TEST(a_walk_finds_all)
+START_TEST(a_traversal_finds_all_overlaps)
 {
   static sbri_box boxes[COUNT];
   static sbri_bounds_node nodes[2 * COUNT + 1];
@@ -43,8 +43,8 @@ START_TEST(a_walk_finds_all)
 }
 END_TEST
 
-/* Boxes that have moved far: what is asked for is found as in a tree made of them. */
-START_TEST(a_refitted_tree_finds_all)
+/* Boxes that have moved far: a refitted tree finds the same as a new one. */
+START_TEST(a_refitted_tree_finds_all_overlaps)
 {
   static sbri_box boxes[COUNT];
   static sbri_bounds_node nodes[2 * COUNT + 1];
@@ -81,8 +81,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("bounds_tree");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_walk_finds_all);
-  tcase_add_test(tests, a_refitted_tree_finds_all);
+  tcase_add_test(tests, a_traversal_finds_all_overlaps);
+  tcase_add_test(tests, a_refitted_tree_finds_all_overlaps);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

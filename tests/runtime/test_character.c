@@ -39,7 +39,7 @@ static double deformation(const scene *s) {
   return worst;
 }
 
-START_TEST(it_stands_where_it_is_put)
+START_TEST(it_stands_where_it_is_created)
 {
   scene s = walker();
   s.character_definition.position = (sbr_double3){1e6 + 0.25, 0.5, -2e6};
@@ -55,7 +55,7 @@ START_TEST(it_stands_where_it_is_put)
 }
 END_TEST
 
-START_TEST(it_goes_where_it_is_driven_however_far)
+START_TEST(it_follows_the_drive_at_any_distance)
 {
   scene s = walker();
   s.character_definition.position.x = 1e7;
@@ -79,7 +79,7 @@ START_TEST(it_goes_where_it_is_driven_however_far)
 }
 END_TEST
 
-START_TEST(a_teleport_leaves_the_shape_and_stops_it)
+START_TEST(a_teleport_keeps_the_shape_and_stops_it)
 {
   scene s = walker();
   scene_start(&s);
@@ -100,7 +100,7 @@ START_TEST(a_teleport_leaves_the_shape_and_stops_it)
 }
 END_TEST
 
-START_TEST(a_reset_brings_back_the_rest_shape)
+START_TEST(a_reset_restores_the_rest_shape)
 {
   scene s = walker();
   scene_start(&s);
@@ -113,7 +113,7 @@ START_TEST(a_reset_brings_back_the_rest_shape)
   ck_assert_double_eq_tol(after.x, before.x, 1e-4);
   ck_assert_double_eq_tol(after.z, before.z, 1e-4);
   scene_ticks(&s, 60);
-  ck_assert_double_lt(deformation(&s), 1e-4); /* and it bears its weight: nothing moves */
+  ck_assert_double_lt(deformation(&s), 1e-4); /* and it supports its weight: nothing moves */
   scene_free(&s);
 }
 END_TEST
@@ -137,13 +137,13 @@ START_TEST(a_paused_character_stands_still)
 END_TEST
 
 /* The same shape at the same number of its own ticks: a character of scale 4 in twice the ticks. */
-START_TEST(scaled_bodies_move_alike)
+START_TEST(scaled_bodies_move_equally)
 {
   scene small = walker(), large = walker();
   scene *scenes[] = {&small, &large};
   for (int i = 0; i < 2; i++) {
     scene_body(scenes[i], 0)->attributes.sag_free = false; /* it swings under its weight */
-    scenes[i]->character_definition.hold = true;
+    scenes[i]->character_definition.hold_pose = true;
     scenes[i]->character_definition.scale = i ? 4 : 1;
     scenes[i]->world_definition.control_tick_s = i ? 1.0 / 30 : 1.0 / 60;
     scene_start(scenes[i]);
@@ -227,7 +227,7 @@ START_TEST(handles_are_valid_while_it_lives)
 END_TEST
 
 /* Each number of a definition, and each of the calls that nobody hears fail. */
-START_TEST(numbers_that_are_none_never_get_in)
+START_TEST(invalid_numbers_are_never_accepted)
 {
   static const float bad[4] = {NAN, INFINITY, -INFINITY, 1e16f};
   const float no = bad[_i];
@@ -269,7 +269,7 @@ START_TEST(numbers_that_are_none_never_get_in)
   for (int k = 0; k < 5; k++) {
     sbr_detail_definition detail = sbr_default_detail_definition();
     float *at[5] = {
-        &detail.error_px, &detail.budget_us, &detail.ns_per_visit, &detail.stay_s, &detail.away_after_s};
+        &detail.error_px, &detail.budget_us, &detail.ns_per_visit, &detail.stay_s, &detail.offscreen_after_s};
     *at[k] = no;
     ck_assert_int_eq(sbr_world_select_detail_levels(s.world, &detail, &error), SBF_FAILED);
   }
@@ -290,7 +290,7 @@ START_TEST(numbers_that_are_none_never_get_in)
 END_TEST
 
 /* One world, two floors: what stands on the upper one goes as the other does, as much higher. */
-START_TEST(each_may_have_a_ground_of_its_own)
+START_TEST(each_may_have_its_own_ground)
 {
   scene s = walker();
   scene_start(&s);
@@ -316,16 +316,16 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("character");
   TCase *c = tcase_create("character");
-  tcase_add_test(c, it_stands_where_it_is_put);
-  tcase_add_test(c, it_goes_where_it_is_driven_however_far);
-  tcase_add_test(c, a_teleport_leaves_the_shape_and_stops_it);
-  tcase_add_test(c, a_reset_brings_back_the_rest_shape);
+  tcase_add_test(c, it_stands_where_it_is_created);
+  tcase_add_test(c, it_follows_the_drive_at_any_distance);
+  tcase_add_test(c, a_teleport_keeps_the_shape_and_stops_it);
+  tcase_add_test(c, a_reset_restores_the_rest_shape);
   tcase_add_test(c, a_paused_character_stands_still);
-  tcase_add_test(c, scaled_bodies_move_alike);
-  tcase_add_test(c, each_may_have_a_ground_of_its_own);
+  tcase_add_test(c, scaled_bodies_move_equally);
+  tcase_add_test(c, each_may_have_its_own_ground);
   tcase_add_test(c, definitions_are_checked);
   tcase_add_test(c, handles_are_valid_while_it_lives);
-  tcase_add_loop_test(c, numbers_that_are_none_never_get_in, 0, 4);
+  tcase_add_loop_test(c, invalid_numbers_are_never_accepted, 0, 4);
   suite_add_tcase(s, c);
   return s;
 }

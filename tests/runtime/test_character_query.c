@@ -32,7 +32,7 @@ static uint32_t passes_of(sbf_scheme scheme, uint32_t substeps, float step_error
   return passes;
 }
 
-START_TEST(passes_are_those_that_a_scheme_makes)
+START_TEST(element_visits_match_the_scheme)
 {
   ck_assert_uint_eq(passes_of(SBF_SCHEME_SYMPLECTIC, 4, 0, false), 10 * 4);
   ck_assert_uint_eq(passes_of(SBF_SCHEME_POSITION_BASED, 4, 0, false), 10 * 4);
@@ -59,7 +59,7 @@ START_TEST(steps_that_a_scheme_chooses_are_counted)
 }
 END_TEST
 
-START_TEST(they_belong_to_the_state)
+START_TEST(element_visits_belong_to_the_state)
 {
   enum { MAX = 1 << 20 };
   static unsigned char kept[MAX];
@@ -79,9 +79,9 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("character_query");
   TCase *c = tcase_create("passes");
-  tcase_add_test(c, passes_are_those_that_a_scheme_makes);
+  tcase_add_test(c, element_visits_match_the_scheme);
   tcase_add_test(c, steps_that_a_scheme_chooses_are_counted);
-  tcase_add_test(c, they_belong_to_the_state);
+  tcase_add_test(c, element_visits_belong_to_the_state);
   suite_add_tcase(s, c);
   return s;
 }

@@ -6,7 +6,7 @@
 #include "host_threads.h"
 #include "rigid_person.h"
 
-/* What is left is given back after a second. */
+/* Unused memory is freed after a second. */
 enum { KEPT = 61, CROWD = 12 };
 
 static size_t bytes_of(const scene *s, uint32_t detail_level) {
@@ -25,7 +25,7 @@ static scene begin(harness_memory *memory, size_t allowed, uint32_t detail_level
   return s;
 }
 
-START_TEST(a_character_holds_what_its_detail_level_needs)
+START_TEST(a_character_stores_only_its_detail_level)
 {
   harness_memory memory;
   scene s = begin(&memory, SIZE_MAX, DETAIL_BONES);
@@ -48,7 +48,7 @@ START_TEST(a_character_holds_what_its_detail_level_needs)
 }
 END_TEST
 
-START_TEST(ticks_ask_for_nothing_but_at_a_change)
+START_TEST(ticks_allocate_only_at_a_change)
 {
   harness_memory memory;
   scene s = begin(&memory, SIZE_MAX, DETAIL_FINE);
@@ -75,7 +75,7 @@ static uint32_t refusals(const scene *s, sbr_memory_use use) {
 }
 
 /* It goes on as if nobody had asked, and goes over as soon as it may. */
-START_TEST(without_memory_the_detail_level_stays_and_is_reported)
+START_TEST(a_failed_allocation_keeps_the_detail_level_and_is_reported)
 {
   const uint32_t to = _i ? DETAIL_BONES : DETAIL_FINE, from = _i ? DETAIL_FINE : DETAIL_BONES;
   harness_memory memory, plenty;
@@ -118,7 +118,7 @@ static void check(const crowd *c, double from) {
 static crowd crowd_begin(harness_memory *memory, const sbr_tasks *tasks) {
   crowd c = {.s = detail_scene_begin(false)};
   sbr_detail_definition detail = sbr_default_detail_definition();
-  detail.away_after_s = -1;
+  detail.offscreen_after_s = -1;
   harness_memory_init(memory, SIZE_MAX);
   c.s.world_definition.allocator = &memory->allocator;
   c.s.world_definition.character_capacity = CROWD;
@@ -137,7 +137,7 @@ static crowd crowd_begin(harness_memory *memory, const sbr_tasks *tasks) {
   return c;
 }
 
-START_TEST(a_crowd_far_off_holds_a_share_of_one_that_is_near)
+START_TEST(a_distant_crowd_needs_a_fraction_of_the_memory)
 {
   harness_memory memory;
   crowd c = crowd_begin(&memory, NULL);
@@ -180,7 +180,7 @@ static uint64_t pass(crowd *c, harness_memory *memory, size_t allowed) {
   return sbr_world_get_state_hash(c->s.world);
 }
 
-START_TEST(changes_survive_want_of_memory_at_every_call)
+START_TEST(changes_survive_every_failed_allocation)
 {
   harness_memory memory;
   crowd all = crowd_begin(&memory, NULL);
@@ -215,7 +215,7 @@ START_TEST(threads_change_nothing)
 END_TEST
 
 /* From a detail level whose memory has been given back, and while it goes over. */
-START_TEST(snapshots_go_back_to_any_detail_level)
+START_TEST(snapshots_restore_any_detail_level)
 {
   for (uint32_t fading = 0; fading < 2; fading++) {
     harness_memory memory;
@@ -296,13 +296,13 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("rooms");
   TCase *c = tcase_create("rooms");
-  tcase_add_test(c, a_character_holds_what_its_detail_level_needs);
-  tcase_add_test(c, ticks_ask_for_nothing_but_at_a_change);
-  tcase_add_loop_test(c, without_memory_the_detail_level_stays_and_is_reported, 0, 2);
-  tcase_add_test(c, a_crowd_far_off_holds_a_share_of_one_that_is_near);
-  tcase_add_test(c, changes_survive_want_of_memory_at_every_call);
+  tcase_add_test(c, a_character_stores_only_its_detail_level);
+  tcase_add_test(c, ticks_allocate_only_at_a_change);
+  tcase_add_loop_test(c, a_failed_allocation_keeps_the_detail_level_and_is_reported, 0, 2);
+  tcase_add_test(c, a_distant_crowd_needs_a_fraction_of_the_memory);
+  tcase_add_test(c, changes_survive_every_failed_allocation);
   tcase_add_test(c, threads_change_nothing);
-  tcase_add_test(c, snapshots_go_back_to_any_detail_level);
+  tcase_add_test(c, snapshots_restore_any_detail_level);
   tcase_add_test(c, rigid_parts_stand_still_without_memory);
   suite_add_tcase(s, c);
   return harness_run(s);

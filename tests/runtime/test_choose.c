@@ -46,7 +46,7 @@ static void check(crowd *c, double z, uint32_t ticks) {
   }
 }
 
-START_TEST(what_is_far_is_coarse_and_what_nobody_sees_goes_away)
+START_TEST(distant_characters_are_coarse_and_invisible_ones_have_no_level)
 {
   crowd c = make_crowd(NULL, NULL);
   check(&c, -1, 2);
@@ -100,7 +100,7 @@ START_TEST(predicted_pixels_are_those_of_the_measured_error)
 }
 END_TEST
 
-START_TEST(the_host_may_know_better)
+START_TEST(the_host_can_override_the_choice)
 {
   crowd c = make_crowd(NULL, NULL);
   sbr_character_set_visibility(c.s.world, c.ids[0], SBR_VISIBILITY_NEVER);
@@ -131,7 +131,7 @@ START_TEST(a_camera_that_trembles_changes_nothing)
       was[i] = detail_level_of(&c, i);
     }
   }
-  ck_assert_uint_le(changes, 2); /* to the finer ones of what it trembles between */
+  ck_assert_uint_le(changes, 2); /* to the finer of the two levels */
   scene_free(&c.s);
 }
 END_TEST
@@ -147,7 +147,7 @@ static uint32_t detail_level_beside(crowd *c, double aside) {
 
 /* Beyond a view's edges it becomes fine in one tick, before it can be seen, and nowhere does it come and go.
  */
-START_TEST(a_view_that_turns_finds_it_ready)
+START_TEST(a_rotating_view_finds_fine_levels)
 {
   crowd c = make_crowd(NULL, NULL);
   double in = 0, out = 0, step = 0.002, far = 1.6;
@@ -175,7 +175,7 @@ START_TEST(a_view_that_turns_finds_it_ready)
 }
 END_TEST
 
-START_TEST(a_budget_is_kept_and_spent_on_what_is_near)
+START_TEST(a_budget_is_kept_and_spent_on_near_characters)
 {
   sbr_detail_level detail_levels[8];
   scene alone = detail_scene_begin(false);
@@ -264,12 +264,12 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("choose");
   TCase *c = tcase_create("choose");
-  tcase_add_test(c, what_is_far_is_coarse_and_what_nobody_sees_goes_away);
+  tcase_add_test(c, distant_characters_are_coarse_and_invisible_ones_have_no_level);
   tcase_add_test(c, predicted_pixels_are_those_of_the_measured_error);
-  tcase_add_test(c, the_host_may_know_better);
+  tcase_add_test(c, the_host_can_override_the_choice);
   tcase_add_test(c, a_camera_that_trembles_changes_nothing);
-  tcase_add_test(c, a_view_that_turns_finds_it_ready);
-  tcase_add_test(c, a_budget_is_kept_and_spent_on_what_is_near);
+  tcase_add_test(c, a_rotating_view_finds_fine_levels);
+  tcase_add_test(c, a_budget_is_kept_and_spent_on_near_characters);
   tcase_add_test(c, threads_and_recordings_agree);
   tcase_add_test(c, wrong_definitions_and_failed_allocations_are_reported);
   suite_add_tcase(s, c);

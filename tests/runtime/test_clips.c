@@ -33,7 +33,7 @@ static float head_angle(const gait_stage *s) {
 
 static const float turning[8] = {0, 0, 0, 1, 0.479425539f, 0, 0, 0.877582562f};
 
-START_TEST(a_clip_turns_its_bone_and_no_other)
+START_TEST(a_clip_rotates_its_bone_and_no_other)
 {
   gait_stage s;
   begin(&s, SBF_INTERPOLATION_LINEAR, turning, 8);
@@ -65,7 +65,7 @@ START_TEST(a_clip_that_does_not_loop_stays_at_its_end)
 }
 END_TEST
 
-START_TEST(weights_fade_and_masks_hold_back)
+START_TEST(weights_fade_and_masks_exclude)
 {
   gait_stage s;
   begin(&s, SBF_INTERPOLATION_STEP, turning + 4, 4);
@@ -110,9 +110,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("clips");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_clip_turns_its_bone_and_no_other);
+  tcase_add_test(tests, a_clip_rotates_its_bone_and_no_other);
   tcase_add_test(tests, a_clip_that_does_not_loop_stays_at_its_end);
-  tcase_add_test(tests, weights_fade_and_masks_hold_back);
+  tcase_add_test(tests, weights_fade_and_masks_exclude);
   tcase_add_test(tests, feet_that_a_clip_moves_still_do_not_slide);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -8,7 +8,7 @@ enum { CLOSING = 120, SHUT = 180, REGAINED = SHUT + 16, LANDING = SHUT + 31, END
 /* A press comes down on a block of flesh to a share of its height, stays for a second and goes up. What is
  * pressed is no knot: it is not put back into its rest shape, which is in the press, and lies still; let go,
  * it has its shape again within a quarter of a second, and leaps. Landing presses it anew. */
-START_TEST(what_is_pressed_flat_is_left_alone)
+START_TEST(bodies_pressed_flat_are_not_reset)
 {
   const double height = 0.4, fraction = _i ? 0.05 : 0.3;
   scene s = scene_begin();
@@ -46,7 +46,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("collapsed");
   TCase *c = tcase_create("collapsed");
-  tcase_add_loop_test(c, what_is_pressed_flat_is_left_alone, 0, 2);
+  tcase_add_loop_test(c, bodies_pressed_flat_are_not_reset, 0, 2);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -61,7 +61,7 @@ static void assert_kept(const scene_momentum *is, const scene_momentum *was, dou
 }
 
 /* A cloth is struck by a ball, off its middle and from aside, by each scheme that follows the energy. */
-START_TEST(a_ball_and_a_cloth_keep_their_momentum)
+START_TEST(a_ball_and_a_cloth_conserve_momentum)
 {
   const sbf_scheme schemes[3] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN};
   scene s = scene_begin();
@@ -85,7 +85,7 @@ START_TEST(a_ball_and_a_cloth_keep_their_momentum)
 END_TEST
 
 /* Two rigid boxes on a joint, thrown at the host's. */
-START_TEST(boxes_keep_their_momentum)
+START_TEST(boxes_conserve_momentum)
 {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
@@ -110,8 +110,8 @@ START_TEST(boxes_keep_their_momentum)
 }
 END_TEST
 
-/* What lies on it pushes with its weight, of any size, and goes on when it sleeps. */
-START_TEST(what_lies_weighs)
+/* Bodies at rest on it press with their weight, at any size, and also while they sleep. */
+START_TEST(resting_bodies_press_with_their_weight)
 {
   scene s = scene_begin();
   const sbf_vec3 at[2] = {{0.1f, 0.011f, 0}, {-0.1f, 0.011f, 0}};
@@ -153,7 +153,7 @@ END_TEST
 enum { MANY = 11 }; /* and the ground makes twelve */
 
 /* A body that lies on many bodies of the host at once pushes each of them. */
-START_TEST(each_of_many_bears_its_share)
+START_TEST(each_of_many_carries_its_part)
 {
   scene s = scene_begin();
   sbf_vec3 at[MANY];
@@ -188,10 +188,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("collider_host");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, a_ball_and_a_cloth_keep_their_momentum, 0, 3);
-  tcase_add_loop_test(tests, boxes_keep_their_momentum, 0, 2);
-  tcase_add_loop_test(tests, what_lies_weighs, 0, 2);
-  tcase_add_test(tests, each_of_many_bears_its_share);
+  tcase_add_loop_test(tests, a_ball_and_a_cloth_conserve_momentum, 0, 3);
+  tcase_add_loop_test(tests, boxes_conserve_momentum, 0, 2);
+  tcase_add_loop_test(tests, resting_bodies_press_with_their_weight, 0, 2);
+  tcase_add_test(tests, each_of_many_carries_its_part);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -32,7 +32,7 @@ static scene drop(sbf_scheme scheme, float speed) {
 }
 
 /* Falls onto the ground as fast as from 11 m, tip first. */
-START_TEST(a_blow_turns_nothing_inside_out)
+START_TEST(a_blow_inverts_no_element)
 {
   scene s = drop(schemes[_i], 25);
   for (int i = 0; i < 90; i++) {
@@ -48,7 +48,7 @@ END_TEST
 
 /* One element crushed to a fiftieth and still being crushed: it is back at the wall, stands there, and no
  * momentum is lost; of another that is inside out, J has risen. */
-START_TEST(the_wall_keeps_momentum)
+START_TEST(the_wall_conserves_momentum)
 {
   scene s = scene_begin();
   lattice_box box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 1, 1}, 1, 1, 1, 1000, 1e5f, 0.4f);
@@ -125,8 +125,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("crush");
   TCase *c = tcase_create("crush");
-  tcase_add_loop_test(c, a_blow_turns_nothing_inside_out, 0, 5);
-  tcase_add_loop_test(c, the_wall_keeps_momentum, 0, 2);
+  tcase_add_loop_test(c, a_blow_inverts_no_element, 0, 5);
+  tcase_add_loop_test(c, the_wall_conserves_momentum, 0, 2);
   tcase_add_test(c, only_marked_blocks_are_swept);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -99,7 +99,7 @@ static double slid(double degrees, float friction) {
   return before - after;
 }
 
-START_TEST(friction_holds_below_its_angle_and_lets_go_above)
+START_TEST(bodies_stick_below_the_friction_angle_and_slide_above)
 {
   const float friction = 0.5f; /* atan 0.5 = 26.57 degrees */
   ck_assert_double_lt(fabs(slid(25, friction)), 2e-3);
@@ -154,7 +154,7 @@ START_TEST(sliding_slows_by_coulombs_law)
 }
 END_TEST
 
-START_TEST(restitution_gives_back_its_share)
+START_TEST(restitution_returns_its_fraction_of_speed)
 {
   scene s = scene_begin();
   scene_body(&s, 0)->attributes.restitution = 0.5f;
@@ -181,7 +181,7 @@ START_TEST(restitution_gives_back_its_share)
 }
 END_TEST
 
-START_TEST(what_lies_in_the_ground_is_pushed_up_gently)
+START_TEST(bodies_in_the_ground_are_pushed_up_slowly)
 {
   scene s = cube(0.6f, 0, sbr_ground_flat(0), (sbr_double3){0, -0.1, 0}, 0);
   scene_start(&s);
@@ -204,11 +204,11 @@ static Suite *suite(void) {
   TCase *c = tcase_create("contact");
   tcase_add_test(c, a_dropped_body_comes_to_rest_on_the_ground);
   tcase_add_test(c, a_body_thrown_down_is_never_left_in_the_ground);
-  tcase_add_test(c, friction_holds_below_its_angle_and_lets_go_above);
+  tcase_add_test(c, bodies_stick_below_the_friction_angle_and_slide_above);
   tcase_add_test(c, a_weight_map_scales_friction);
   tcase_add_test(c, sliding_slows_by_coulombs_law);
-  tcase_add_test(c, restitution_gives_back_its_share);
-  tcase_add_test(c, what_lies_in_the_ground_is_pushed_up_gently);
+  tcase_add_test(c, restitution_returns_its_fraction_of_speed);
+  tcase_add_test(c, bodies_in_the_ground_are_pushed_up_slowly);
   suite_add_tcase(s, c);
   return s;
 }

@@ -31,7 +31,7 @@ static const sbri_body *body_of(const scene *s) {
   return &s->model->bodies[0];
 }
 
-START_TEST(all_that_polygons_use_is_sampled)
+START_TEST(all_points_of_polygons_are_sampled)
 {
   scene s = carried_box(4, SBF_PRESSURE_MODE_NONE);
   sbf_soft_body *body = scene_body(&s, 0);
@@ -128,7 +128,7 @@ static void solve(const sbri_island_tick *tick, const sbri_body *body, const sbr
     sbri_soft_contacts_solve(tick, body, tick->velocities, rule);
 }
 
-START_TEST(a_push_is_a_force_at_that_place)
+START_TEST(a_contact_impulse_acts_at_its_sample)
 {
   scene s = carried_box(2, SBF_PRESSURE_MODE_NONE);
   scene_body(&s, 0)->attributes.friction = 0.2f;
@@ -172,14 +172,14 @@ START_TEST(a_push_is_a_force_at_that_place)
   solve(&tick, body_of(&s), &rule);
   sbf_vec3 after_v = velocity_of(&tick, sample);
   momenta after = momenta_of(&tick, position);
-  /* What falls in stops, and friction takes no more sideways than its share of that. */
+  /* A falling sample stops, and friction changes the sideways velocity by at most its fraction of that. */
   float gain = sbri_dot(contact.normal, sbri_sub(after_v, before_v));
   ck_assert_float_eq_tol(sbri_dot(contact.normal, after_v), 0, 1e-4f);
   ck_assert_float_eq_tol(gain, -sbri_dot(contact.normal, before_v), 1e-4f);
   sbf_vec3 change = sbri_sub(after_v, before_v);
   float sideways = sbri_length(sbri_add_scaled(change, contact.normal, -gain));
   ck_assert_float_eq_tol(sideways, friction * gain, 1e-3f);
-  /* The momentum is that of a push there: it does not turn the body about that place. */
+  /* The momentum is that of an impulse at the sample: it has no moment about the sample. */
   const float *change_at = &change.x;
   for (int i = 0; i < 3; i++) {
     ck_assert_double_eq_tol(
@@ -242,7 +242,7 @@ START_TEST(a_surface_beyond_its_lattice_stays_above_the_ground)
 END_TEST
 
 /* Springs between the corners of a box within carry the surface: position-based steps too. */
-START_TEST(position_based_steps_know_samples)
+START_TEST(position_based_steps_apply_samples)
 {
   scene s = carried_box(2, SBF_PRESSURE_MODE_NONE);
   sbf_vec3 positions[8];
@@ -295,7 +295,7 @@ static uint32_t contact_count(const scene *s) {
 }
 
 /* Nine points of the lattice support 81 vertices of the lower face. */
-START_TEST(resting_points_keep_few_contacts_and_striking_ones_keep_all)
+START_TEST(resting_points_keep_few_contacts_and_impacts_keep_all)
 {
   scene s = carried_box(8, SBF_PRESSURE_MODE_NONE);
   s.world_definition.sleep_after_s = 0;
@@ -322,13 +322,13 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("contact samples");
   TCase *c = tcase_create("contact samples");
-  tcase_add_test(c, all_that_polygons_use_is_sampled);
+  tcase_add_test(c, all_points_of_polygons_are_sampled);
   tcase_add_test(c, faces_larger_than_the_elements_are_supported_by_points_of_the_level);
   tcase_add_test(c, points_of_a_spring_level_need_no_samples);
-  tcase_add_loop_test(c, a_push_is_a_force_at_that_place, 0, 2);
+  tcase_add_loop_test(c, a_contact_impulse_acts_at_its_sample, 0, 2);
   tcase_add_loop_test(c, a_surface_beyond_its_lattice_stays_above_the_ground, 0, 6);
-  tcase_add_test(c, position_based_steps_know_samples);
-  tcase_add_test(c, resting_points_keep_few_contacts_and_striking_ones_keep_all);
+  tcase_add_test(c, position_based_steps_apply_samples);
+  tcase_add_test(c, resting_points_keep_few_contacts_and_impacts_keep_all);
   suite_add_tcase(s, c);
   return s;
 }

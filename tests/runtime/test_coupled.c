@@ -18,7 +18,7 @@ static scene weightless(void) {
   return s;
 }
 
-/* A block of flesh of that mass, both ends of which are held by a box each. */
+/* A block of flesh of that mass; each end is pinned to a box. */
 static scene dumbbell(float soft_kg, float rigid_kg, float damping_ratio) {
   scene s = weightless();
   lattice_box box = lattice_box_make(
@@ -40,7 +40,7 @@ static const struct {
   float soft_kg, rigid_kg, damping_ratio;
 } dumbbells[] = {{1, 1, 0}, {1, 1, 0.2f}, {0.1f, 10, 0.05f}, {10, 0.1f, 0.05f}, {100, 0.1f, 0.05f}};
 
-START_TEST(a_hit_keeps_momentum)
+START_TEST(a_hit_conserves_momentum)
 {
   scene s = dumbbell(dumbbells[_i].soft_kg, dumbbells[_i].rigid_kg, dumbbells[_i].damping_ratio);
   scene_start(&s);
@@ -94,7 +94,7 @@ END_TEST
 
 /* Points between two boxes, each on springs to four points of either: what the springs give the boxes, and
  * their damping too, they take from the points. */
-START_TEST(springs_keep_momentum)
+START_TEST(springs_conserve_momentum)
 {
   enum { HELD = 8, FREE = 3 };
   scene s = weightless();
@@ -346,7 +346,7 @@ START_TEST(the_same_bits_on_any_threads)
 END_TEST
 
 /* Flesh and bones fall asleep in the same tick, and wake in the same. */
-START_TEST(they_sleep_together)
+START_TEST(coupled_bodies_sleep_together)
 {
   scene s = on_the_ground();
   s.world_definition.sleep_after_s = 0.5;
@@ -373,17 +373,17 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("coupled");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, a_hit_keeps_momentum, 0, sizeof dumbbells / sizeof *dumbbells);
+  tcase_add_loop_test(tests, a_hit_conserves_momentum, 0, sizeof dumbbells / sizeof *dumbbells);
   tcase_add_loop_test(
       tests, a_hard_hit_swings_nothing_up, 0, HARNESS_FEW((int)(sizeof hard_hits / sizeof *hard_hits), 2));
-  tcase_add_loop_test(tests, springs_keep_momentum, 0, 2);
+  tcase_add_loop_test(tests, springs_conserve_momentum, 0, 2);
   tcase_add_loop_test(tests, a_mass_swings_on_a_soft_spring, 0, 3);
   tcase_add_loop_test(tests, both_ends_of_a_spring_swing, 0, 3);
   tcase_add_loop_test(tests, a_load_presses_a_column, 0, 3);
   tcase_add_loop_test(tests, a_soft_body_is_attached_to_a_joint, 0, sizeof hung / sizeof *hung);
   tcase_add_test(tests, the_same_bits_on_any_threads);
   tcase_add_loop_test(tests, jelly_about_a_bone_is_not_turned_inside_out, 0, 24);
-  tcase_add_test(tests, they_sleep_together);
+  tcase_add_test(tests, coupled_bodies_sleep_together);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -39,7 +39,7 @@ static void add_cube(scene *s, float young_pa, uint32_t cells, bool is_pinned) {
   scene_body(s, 0)->attributes.friction = 0.5f;
 }
 
-START_TEST(what_bones_crush_does_not_burst)
+START_TEST(bodies_crushed_by_bones_do_not_burst)
 {
   const squeeze *q = &squeezes[_i];
   scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0}),
@@ -77,7 +77,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("crushed_by_pins");
   TCase *c = tcase_create("crushed_by_pins");
-  tcase_add_loop_test(c, what_bones_crush_does_not_burst, 0, SQUEEZES);
+  tcase_add_loop_test(c, bodies_crushed_by_bones_do_not_burst, 0, SQUEEZES);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

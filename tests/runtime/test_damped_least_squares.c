@@ -1,7 +1,7 @@
 #include "harness.h"
 #include "ik_chains.h"
 
-START_TEST(reaches_what_can_be_reached)
+START_TEST(reaches_targets_within_range)
 { ik_expect_reaches(sbri_damped_least_squares, 30, 195); }
 END_TEST
 
@@ -13,7 +13,7 @@ START_TEST(keeps_hinges)
 { ik_expect_keeps_hinges(sbri_damped_least_squares, 190); }
 END_TEST
 
-START_TEST(stretches_out_to_what_is_too_far)
+START_TEST(stretches_towards_targets_out_of_range)
 { ik_expect_stretches_to(sbri_damped_least_squares); }
 END_TEST
 
@@ -25,11 +25,11 @@ START_TEST(copies_the_target_s_rotation)
 { ik_expect_copies_rotation(sbri_damped_least_squares); }
 END_TEST
 
-START_TEST(odd_targets_leave_it_whole)
+START_TEST(invalid_targets_keep_it_finite)
 { ik_expect_survives(sbri_damped_least_squares); }
 END_TEST
 
-START_TEST(comforts_act_without_moving_the_end)
+START_TEST(comfort_angles_act_without_moving_the_end)
 {
   ik_chain_fixture f, comfortable;
   ik_chain_bent(&f);
@@ -82,14 +82,14 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("damped_least_squares");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, reaches_what_can_be_reached);
+  tcase_add_test(tests, reaches_targets_within_range);
   tcase_add_test(tests, keeps_limits);
   tcase_add_test(tests, keeps_hinges);
-  tcase_add_test(tests, stretches_out_to_what_is_too_far);
+  tcase_add_test(tests, stretches_towards_targets_out_of_range);
   tcase_add_test(tests, bows_towards_the_pole);
   tcase_add_test(tests, copies_the_target_s_rotation);
-  tcase_add_test(tests, odd_targets_leave_it_whole);
-  tcase_add_test(tests, comforts_act_without_moving_the_end);
+  tcase_add_test(tests, invalid_targets_keep_it_finite);
+  tcase_add_test(tests, comfort_angles_act_without_moving_the_end);
   tcase_add_test(tests, comforts_act_by_axis);
   tcase_add_test(tests, extension_is_eased);
   suite_add_tcase(suite, tests);

@@ -49,7 +49,7 @@ static scene held_box(void) {
   return started(s);
 }
 
-START_TEST(stages_follow_each_other_and_make_up_the_tick)
+START_TEST(stages_run_in_order_and_add_up_to_the_tick)
 {
   scene s = held_box();
   counting_clock clock = {100};
@@ -176,7 +176,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("debug");
   TCase *c = tcase_create("debug");
-  tcase_add_test(c, stages_follow_each_other_and_make_up_the_tick);
+  tcase_add_test(c, stages_run_in_order_and_add_up_to_the_tick);
   tcase_add_test(c, a_clock_changes_no_motion);
   tcase_add_test(c, counters_are_those_of_the_scene);
   tcase_add_test(c, sleepers_are_not_awake);

@@ -13,7 +13,7 @@ enum { HEIGHTS = 3, CLOTHS = 9 };
 /* Cloth falls on a ball, on its middle and beside it: what springs throw back under the ball is faster in a
  * tick than it was before. Left is what they pull points by within a step: of the stiffest, in cells of 17
  * cm, 4.0 mm at 6 m/s and 6.1 mm at 14 m/s. */
-START_TEST(cloth_does_not_go_into_a_ball)
+START_TEST(cloth_does_not_enter_a_ball)
 {
   static const uint32_t cells[3] = {6, 12, 24};
   static const float thicknesses[3] = {0, 0.002f, 0.02f}, heights[HEIGHTS] = {0.1f, 2, 10};
@@ -47,7 +47,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("meet_hull");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, cloth_does_not_go_into_a_ball, 0, CLOTHS);
+  tcase_add_loop_test(tests, cloth_does_not_enter_a_ball, 0, CLOTHS);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

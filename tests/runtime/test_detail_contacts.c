@@ -85,7 +85,7 @@ START_TEST(isolated_characters_use_bones_and_return_before_a_contact)
 END_TEST
 
 /* Told to be bones, it is so only while nobody is about. */
-START_TEST(what_the_host_asks_for_waits_until_nobody_is_near)
+START_TEST(a_requested_level_waits_until_nobody_is_near)
 {
   pair p = make(NULL, false);
   for (int k = 0; k < 2; k++) sbr_character_set_detail_level(p.s.world, p.ids[k], DETAIL_BONES);
@@ -153,7 +153,7 @@ START_TEST(threads_and_snapshots_change_nothing)
 }
 END_TEST
 
-START_TEST(want_of_memory_leaves_the_world_as_it_was)
+START_TEST(a_failed_allocation_keeps_the_world)
 {
   harness_memory memory;
   harness_memory_init(&memory, SIZE_MAX);
@@ -176,10 +176,10 @@ int main(void) {
   Suite *s = suite_create("detail level meetings");
   TCase *c = tcase_create("detail level meetings");
   tcase_add_test(c, isolated_characters_use_bones_and_return_before_a_contact);
-  tcase_add_test(c, what_the_host_asks_for_waits_until_nobody_is_near);
+  tcase_add_test(c, a_requested_level_waits_until_nobody_is_near);
   tcase_add_test(c, characters_in_contact_change_the_lattice_and_stay_in_contact);
   tcase_add_test(c, threads_and_snapshots_change_nothing);
-  tcase_add_test(c, want_of_memory_leaves_the_world_as_it_was);
+  tcase_add_test(c, a_failed_allocation_keeps_the_world);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -141,7 +141,7 @@ START_TEST(rotating_bodies_continue_to_rotate)
 }
 END_TEST
 
-START_TEST(away_goes_where_it_is_driven_and_comes_back)
+START_TEST(a_character_without_level_follows_its_drive_and_returns)
 {
   scene s = detail_scene_walking(DETAIL_OFFSCREEN), stays = detail_scene_walking(DETAIL_BONES);
   double distance = sbr_character_get_distance(s.world, s.character);
@@ -204,7 +204,7 @@ static uint64_t wander(scene *s) {
   return sbr_world_get_state_hash(s->world);
 }
 
-START_TEST(snapshots_hold_detail_levels_and_fades)
+START_TEST(snapshots_store_detail_levels_and_fades)
 {
   scene s = detail_scene_walking(DETAIL_FINE);
   static sbf_vec3 a[RUNG_VERTICES], b[RUNG_VERTICES];
@@ -228,7 +228,7 @@ START_TEST(snapshots_hold_detail_levels_and_fades)
 }
 END_TEST
 
-START_TEST(recordings_hold_changes)
+START_TEST(recordings_store_changes)
 {
   static tape t;
   const sbr_record_output output = {tape_keep, &t};
@@ -272,10 +272,10 @@ int main(void) {
   tcase_add_loop_test(c, energy_does_not_rise_and_the_motion_continues, 0, 2);
   tcase_add_test(c, flying_bodies_continue_to_fly);
   tcase_add_loop_test(c, rotating_bodies_continue_to_rotate, 0, 3);
-  tcase_add_test(c, away_goes_where_it_is_driven_and_comes_back);
+  tcase_add_test(c, a_character_without_level_follows_its_drive_and_returns);
   tcase_add_test(c, jiggle_follows_its_bone);
-  tcase_add_test(c, snapshots_hold_detail_levels_and_fades);
-  tcase_add_test(c, recordings_hold_changes);
+  tcase_add_test(c, snapshots_store_detail_levels_and_fades);
+  tcase_add_test(c, recordings_store_changes);
   tcase_add_test(c, bones_that_stand_sleep_and_wake_for_a_change);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -4,7 +4,7 @@
 #include "detail_scenes.h"
 #include "harness.h"
 
-START_TEST(detail_levels_include_jiggle_bones_and_away)
+START_TEST(detail_levels_include_jiggle_bones_and_none)
 {
   scene s = detail_scene_begin(false);
   scene_start(&s);
@@ -25,7 +25,7 @@ START_TEST(detail_levels_include_jiggle_bones_and_away)
 }
 END_TEST
 
-START_TEST(without_detail_levels_or_with_a_body_that_keeps_its_shape_there_is_one_level)
+START_TEST(a_rigid_body_or_missing_levels_give_one_detail_level)
 {
   for (int i = 0; i < 2; i++) {
     scene s = detail_scene_begin(false);
@@ -44,7 +44,7 @@ START_TEST(without_detail_levels_or_with_a_body_that_keeps_its_shape_there_is_on
 }
 END_TEST
 
-START_TEST(what_nothing_holds_has_soft_detail_levels_alone)
+START_TEST(unpinned_bodies_have_soft_detail_levels_only)
 {
   scene s = detail_scene_begin(true);
   scene_start(&s);
@@ -55,7 +55,7 @@ START_TEST(what_nothing_holds_has_soft_detail_levels_alone)
 }
 END_TEST
 
-START_TEST(a_level_that_is_off_by_a_quarter_of_its_body_is_no_detail_level)
+START_TEST(a_level_with_a_large_error_is_no_detail_level)
 {
   scene s = detail_scene_begin(false);
   ((sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at)[1].simulation.error = 0.2f;
@@ -69,7 +69,7 @@ END_TEST
 
 /* What a level states of motion goes before what it states of rest, even where that has gone wrong; a scheme
  * that looks at elements more often costs so much more. */
-START_TEST(detail_levels_go_by_what_was_measured_in_motion)
+START_TEST(detail_levels_use_errors_measured_in_motion)
 {
   float visits = 0;
   for (int i = 0; i < 2; i++) {
@@ -95,7 +95,7 @@ START_TEST(detail_levels_go_by_what_was_measured_in_motion)
 }
 END_TEST
 
-START_TEST(levels_that_were_not_loaded_are_passed_over)
+START_TEST(levels_that_were_not_loaded_are_skipped)
 {
   scene s = detail_scene_begin(false);
   sbf_level *levels = (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at;
@@ -109,7 +109,7 @@ START_TEST(levels_that_were_not_loaded_are_passed_over)
 }
 END_TEST
 
-START_TEST(making_one_survives_want_of_memory)
+START_TEST(creation_survives_failed_allocations)
 {
   scene s = detail_scene_begin(false);
   scene_models_survive_want(&s);
@@ -120,13 +120,13 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("detail levels");
   TCase *c = tcase_create("detail levels");
-  tcase_add_test(c, detail_levels_include_jiggle_bones_and_away);
-  tcase_add_test(c, without_detail_levels_or_with_a_body_that_keeps_its_shape_there_is_one_level);
-  tcase_add_test(c, what_nothing_holds_has_soft_detail_levels_alone);
-  tcase_add_test(c, a_level_that_is_off_by_a_quarter_of_its_body_is_no_detail_level);
-  tcase_add_test(c, detail_levels_go_by_what_was_measured_in_motion);
-  tcase_add_test(c, levels_that_were_not_loaded_are_passed_over);
-  tcase_add_test(c, making_one_survives_want_of_memory);
+  tcase_add_test(c, detail_levels_include_jiggle_bones_and_none);
+  tcase_add_test(c, a_rigid_body_or_missing_levels_give_one_detail_level);
+  tcase_add_test(c, unpinned_bodies_have_soft_detail_levels_only);
+  tcase_add_test(c, a_level_with_a_large_error_is_no_detail_level);
+  tcase_add_test(c, detail_levels_use_errors_measured_in_motion);
+  tcase_add_test(c, levels_that_were_not_loaded_are_skipped);
+  tcase_add_test(c, creation_survives_failed_allocations);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

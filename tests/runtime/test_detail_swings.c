@@ -9,7 +9,7 @@
 /* A screen of 1080, 60 degrees high. */
 static const float LINES = 1080, HEIGHT_RAD = 1.0471976f;
 
-/* What it is made to do: goes to and fro; stops short; is struck from below; turns to and fro; walks. */
+/* Motions: to and fro; a sudden stop; a hit from below; rotation to and fro; a walk. */
 enum { SHAKEN, STOPPED, KNOCKED, TURNED, MOTIONS, CALM = MOTIONS, TURNS_TICKS = 14 };
 
 static void shake(scene *s, int motion, int tick) {
@@ -80,7 +80,7 @@ static double jump(int motion, uint32_t from, uint32_t to, int at) {
   return reach > 1e-3 ? max / reach : 0; /* a jiggle does not feel what strikes it */
 }
 
-START_TEST(hardly_anything_of_a_swing_jumps)
+START_TEST(a_change_of_level_hardly_changes_a_swing)
 {
   uint32_t from = (uint32_t)_i / (DETAIL_OFFSCREEN - 1), to = (uint32_t)_i % (DETAIL_OFFSCREEN - 1);
   to += to >= from;
@@ -116,7 +116,7 @@ static double pixels_of(double distance) {
   return (double)LINES / (2 * tan((double)HEIGHT_RAD / 2) * (distance - 0.45));
 }
 
-/* What it is driven by instead in the very tick of a change; the first: by what it is made to do. */
+/* Drives that replace the motion in the tick of a change; the first: the motion itself. */
 static const float elsewhere[][2] = {{0, 0}, {0, 0}, {4, 0}, {-4, 0}, {0.5f, 0}, {0, 6}, {0, -6}};
 enum { ELSEWHERE = sizeof elsewhere / sizeof *elsewhere };
 
@@ -208,7 +208,7 @@ START_TEST(chosen_changes_jump_by_less_than_half_a_pixel)
 END_TEST
 
 /* Of one that has just been made nothing has been seen. */
-START_TEST(a_new_one_begins_on_the_detail_level_that_is_chosen)
+START_TEST(a_new_character_begins_on_its_chosen_detail_level)
 {
   watched_changes c = watch_changes(CALM);
   sbr_view view = view_from(&c.w.s, 1.5);
@@ -227,10 +227,10 @@ int main(void) {
   Suite *s = suite_create("detail level swings");
   TCase *c = tcase_create("detail level swings");
   tcase_add_loop_test(
-      c, hardly_anything_of_a_swing_jumps, 0, HARNESS_FEW(DETAIL_BONES * (DETAIL_OFFSCREEN - 1), 3));
+      c, a_change_of_level_hardly_changes_a_swing, 0, HARNESS_FEW(DETAIL_BONES * (DETAIL_OFFSCREEN - 1), 3));
   tcase_add_loop_test(c, chosen_changes_jump_by_less_than_half_a_pixel, SHAKEN, KNOCKED);
   tcase_add_loop_test(c, chosen_changes_jump_by_less_than_half_a_pixel, TURNED, CALM + 1);
-  tcase_add_test(c, a_new_one_begins_on_the_detail_level_that_is_chosen);
+  tcase_add_test(c, a_new_character_begins_on_its_chosen_detail_level);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -70,7 +70,7 @@ START_TEST(any_number_of_threads_gives_the_same_bits)
 }
 END_TEST
 
-/* ---- What is divided ---- */
+/* ---- Divided islands ---- */
 
 /* One thread that counts the batches of more than one task. */
 static void run_and_count(void *user, sbr_task *task, void *context, uint32_t count) {
@@ -102,7 +102,7 @@ START_TEST(tasks_divide_explicit_substeps_of_large_islands)
 END_TEST
 
 /* Every element is in one part, and each corner's force goes to its slot or to an entry of that slot. */
-START_TEST(parts_hold_each_force_once)
+START_TEST(parts_have_each_force_once)
 {
   scene s = begin(FALLING, (sbr_tasks){NULL, NULL});
   const sbri_island *island = &s.model->islands[0];
@@ -146,7 +146,7 @@ int main(void) {
   tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, any_number_of_threads_gives_the_same_bits, 0, KINDS);
   tcase_add_test(c, tasks_divide_explicit_substeps_of_large_islands);
-  tcase_add_test(c, parts_hold_each_force_once);
+  tcase_add_test(c, parts_have_each_force_once);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

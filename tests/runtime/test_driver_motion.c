@@ -105,7 +105,7 @@ static void check(scene *s, float throws) {
   scene_free(s);
 }
 
-START_TEST(what_is_thrown_goes_along)
+START_TEST(thrown_bodies_follow_their_driver)
 {
   static const float up[3 * KEYS] = {0, 0, 0, 0, 0.7f, 0, 0, 2.1f, 0, 0, 1.6f, 0, 0, 0, 0};
   scene s = rod(SBF_TRACK_PROPERTY_TRANSLATION, up, 3 * KEYS);
@@ -113,7 +113,7 @@ START_TEST(what_is_thrown_goes_along)
 }
 END_TEST
 
-START_TEST(what_is_whipped_round_goes_along)
+START_TEST(whirled_bodies_follow_their_driver)
 {
   /* About Y by 0, 0.5, 1.5, 1 and 0 radians, from the rest pose: up to 24 rad/s. */
   static const float turns[4 * KEYS] = {0.707106781f, 0, 0, 0.707106781f, 0.685124544f, 0.174941017f,
@@ -124,7 +124,7 @@ START_TEST(what_is_whipped_round_goes_along)
 }
 END_TEST
 
-START_TEST(what_has_jumped_stands)
+START_TEST(bodies_stand_after_a_jump)
 {
   static const float away[3 * KEYS] = {0, 0, 0, 0, 0, 6, 0, 0, 6, 0, 0, 6, 0, 0, 6};
   scene s = rod(SBF_TRACK_PROPERTY_TRANSLATION, away, 3 * KEYS);
@@ -135,9 +135,9 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("guiding");
   TCase *c = tcase_create("guiding");
-  tcase_add_test(c, what_is_thrown_goes_along);
-  tcase_add_test(c, what_is_whipped_round_goes_along);
-  tcase_add_test(c, what_has_jumped_stands);
+  tcase_add_test(c, thrown_bodies_follow_their_driver);
+  tcase_add_test(c, whirled_bodies_follow_their_driver);
+  tcase_add_test(c, bodies_stand_after_a_jump);
   suite_add_tcase(s, c);
   return s;
 }

@@ -20,7 +20,7 @@ static drop_result drop(sbf_scheme scheme, sbf_vec3 size, uint32_t cells) {
   scene_section(&s, 0, (sbf_vec3){0, 1 + 0.5f * size.y, 0}, size, cells);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position = (sbr_double3){0, 0, 0};
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   s.model_options = sbr_default_model_options();
   s.model_options.scheme = scheme;
   s.model_options.free = true;

@@ -10,7 +10,7 @@
 
 static const double G = 9.81;
 
-/* Bare points keep their radius from what they touch. */
+/* Bare points keep their radius as distance in contacts. */
 static const float KEPT_M = 0.01f;
 
 enum flesh { CUBE, MATTRESS }; /* 30 cm and 27 kg; 80 x 20 x 80 cm and 20 kg */
@@ -69,7 +69,7 @@ END_TEST
 
 /* Dropped from 10 cm: within five seconds it lies, as light as a thousandth of the cube or as heavy as that.
  */
-START_TEST(what_is_dropped_comes_to_rest)
+START_TEST(dropped_bodies_come_to_rest)
 {
   const double masses[6] = {0.027, 0.1, 0.5, 1, 5, 27};
   double mass = masses[_i / 2];
@@ -103,7 +103,7 @@ START_TEST(weight_presses_as_it_should)
   host_body b = host_body_make(&s, collision_box(0.5f * scale, 0.05f * scale, 0.5f * scale), mass, NULL, 1,
       (sbr_double3){0, height + 0.05 * (double)scale, 0});
   host_body_go(&s, &b, 240, -10);
-  double own = 0.5 * 160 * G * 0.04 / 50000; /* what it sinks by itself */
+  double own = 0.5 * 160 * G * 0.04 / 50000; /* its sag under its own weight */
   double sinks = height - (b.at[1] - (0.05 + (double)KEPT_M) * (double)scale),
          wanted = (100 * G * 0.2 / (0.64 * 50000) + own) * (double)scale;
   ck_assert_double_eq_tol(sinks, wanted, 0.05 * wanted);
@@ -112,8 +112,8 @@ START_TEST(weight_presses_as_it_should)
 }
 END_TEST
 
-/* A light crate on the host's floor bears the cube, though it gave way if it were free. */
-START_TEST(what_a_floor_holds_bears)
+/* A light crate on the host's floor carries the cube; a free crate would yield. */
+START_TEST(bodies_on_a_floor_carry_others)
 {
   scene s = flesh_begin();
   add_attached(&s, 0, CUBE, 0, 50000);
@@ -135,7 +135,7 @@ START_TEST(what_a_floor_holds_bears)
 END_TEST
 
 /* A plank lies over two cubes, more on one than on the other; as one collider and as two. */
-START_TEST(several_bear_it_together)
+START_TEST(several_bodies_carry_it_together)
 {
   const sbf_vec3 arms[HOST_BODY_PARTS] = {{-0.3f, 0, 0}, {0.3f, 0, 0}};
   scene s = flesh_begin();
@@ -211,10 +211,10 @@ int main(void) {
   Suite *suite = suite_create("external_body");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, momentum_is_kept, 0, 8);
-  tcase_add_loop_test(tests, what_is_dropped_comes_to_rest, 0, HARNESS_FEW(12, 2));
+  tcase_add_loop_test(tests, dropped_bodies_come_to_rest, 0, HARNESS_FEW(12, 2));
   tcase_add_loop_test(tests, weight_presses_as_it_should, 0, HARNESS_FEW(2, 1));
-  tcase_add_test(tests, what_a_floor_holds_bears);
-  tcase_add_loop_test(tests, several_bear_it_together, 0, 2);
+  tcase_add_test(tests, bodies_on_a_floor_carry_others);
+  tcase_add_loop_test(tests, several_bodies_carry_it_together, 0, 2);
   tcase_add_test(tests, without_new_commands_it_continues);
   tcase_add_test(tests, bad_ones_are_refused);
   suite_add_tcase(suite, tests);

@@ -47,7 +47,7 @@ START_TEST(a_hinge_has_the_gradient_of_its_angle)
 }
 END_TEST
 
-/* A box whose quads are bent: the sum of the faces' gradients at a corner is that of the volume. */
+/* A box with bent quads: the sum of the faces' gradients at a corner is the gradient of the volume. */
 START_TEST(faces_have_the_gradient_of_the_volume)
 {
   static const uint32_t quads[6][4] = {
@@ -109,7 +109,7 @@ static scene balloon(int scheme, float pressure) {
   return s;
 }
 
-START_TEST(a_gas_swells_a_body_until_its_springs_hold_it)
+START_TEST(a_gas_swells_a_body_until_its_springs_balance_it)
 {
   scene s = balloon(_i, 500);
   if (_i == EXPLICIT_EULER) s.model_options.substeps = 256;
@@ -190,7 +190,7 @@ START_TEST(maps_scale_the_pressure_face_by_face)
 END_TEST
 
 /* It neither pushes itself away nor spins itself up, though all its faces are bent. */
-START_TEST(a_gas_keeps_momentum)
+START_TEST(a_gas_conserves_momentum)
 {
   scene s = balloon(0, 800);
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)s.asset->soft_bodies.at[0].surface.positions.at;
@@ -255,7 +255,7 @@ START_TEST(a_sheet_bends_under_its_weight)
 }
 END_TEST
 
-START_TEST(a_free_sheet_that_bends_keeps_momentum)
+START_TEST(a_free_bending_sheet_conserves_momentum)
 {
   scene s = scene_begin();
   sbf_vec3 positions[4] = {{0, 0, 0}, {1, 0, 0.2f}, {1, 0.3f, 1}, {0, 0, 1}}, moved[4];
@@ -284,7 +284,7 @@ START_TEST(a_free_sheet_that_bends_keeps_momentum)
 END_TEST
 
 /* A flat plate falls until rho/2 v^2 A = m g. */
-START_TEST(a_plate_falls_no_faster_than_the_air_lets_it)
+START_TEST(a_plate_falls_at_its_terminal_speed)
 {
   scene s = scene_begin();
   sbf_vec3 positions[4] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}};
@@ -368,13 +368,13 @@ static Suite *suite(void) {
   TCase *c = tcase_create("outer forces");
   tcase_add_test(c, a_hinge_has_the_gradient_of_its_angle);
   tcase_add_test(c, faces_have_the_gradient_of_the_volume);
-  tcase_add_loop_test(c, a_gas_swells_a_body_until_its_springs_hold_it, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, a_gas_swells_a_body_until_its_springs_balance_it, 0, SCHEME_COUNT);
   tcase_add_test(c, a_squashed_gas_is_stepped_as_finely_as_it_needs);
   tcase_add_test(c, maps_scale_the_pressure_face_by_face);
-  tcase_add_test(c, a_gas_keeps_momentum);
+  tcase_add_test(c, a_gas_conserves_momentum);
   tcase_add_loop_test(c, a_sheet_bends_under_its_weight, 0, SCHEME_COUNT);
-  tcase_add_test(c, a_free_sheet_that_bends_keeps_momentum);
-  tcase_add_loop_test(c, a_plate_falls_no_faster_than_the_air_lets_it, 0, SCHEME_COUNT);
+  tcase_add_test(c, a_free_bending_sheet_conserves_momentum);
+  tcase_add_loop_test(c, a_plate_falls_at_its_terminal_speed, 0, SCHEME_COUNT);
   tcase_add_test(c, fields_match_the_specification);
   tcase_add_loop_test(c, a_field_pulls_in_the_anchor_frame, 0, SCHEME_COUNT);
   suite_add_tcase(s, c);

@@ -1,7 +1,7 @@
 #include "harness.h"
 #include "ik_chains.h"
 
-START_TEST(reaches_what_can_be_reached)
+START_TEST(reaches_targets_within_range)
 { ik_expect_reaches(sbri_fabrik, 15, 199); }
 END_TEST
 
@@ -13,7 +13,7 @@ START_TEST(keeps_hinges)
 { ik_expect_keeps_hinges(sbri_fabrik, 180); }
 END_TEST
 
-START_TEST(stretches_out_to_what_is_too_far)
+START_TEST(stretches_towards_targets_out_of_range)
 { ik_expect_stretches_to(sbri_fabrik); }
 END_TEST
 
@@ -25,11 +25,11 @@ START_TEST(copies_the_target_s_rotation)
 { ik_expect_copies_rotation(sbri_fabrik); }
 END_TEST
 
-START_TEST(odd_targets_leave_it_whole)
+START_TEST(invalid_targets_keep_it_finite)
 { ik_expect_survives(sbri_fabrik); }
 END_TEST
 
-START_TEST(too_far_takes_one_pass_and_is_exact)
+START_TEST(targets_out_of_range_need_one_pass_and_are_exact)
 {
   ik_chain_fixture f;
   ik_chain_bent(&f);
@@ -82,7 +82,7 @@ START_TEST(two_arms_reach_two_targets)
 }
 END_TEST
 
-START_TEST(arms_that_cannot_both_reach_share_the_miss)
+START_TEST(arms_that_cannot_both_reach_divide_the_error)
 {
   sbri_ik_joint joints[TREE];
   make_tree(joints);
@@ -100,16 +100,16 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("fabrik");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, reaches_what_can_be_reached);
+  tcase_add_test(tests, reaches_targets_within_range);
   tcase_add_test(tests, keeps_limits);
   tcase_add_test(tests, keeps_hinges);
-  tcase_add_test(tests, stretches_out_to_what_is_too_far);
+  tcase_add_test(tests, stretches_towards_targets_out_of_range);
   tcase_add_test(tests, bows_towards_the_pole);
   tcase_add_test(tests, copies_the_target_s_rotation);
-  tcase_add_test(tests, odd_targets_leave_it_whole);
-  tcase_add_test(tests, too_far_takes_one_pass_and_is_exact);
+  tcase_add_test(tests, invalid_targets_keep_it_finite);
+  tcase_add_test(tests, targets_out_of_range_need_one_pass_and_are_exact);
   tcase_add_test(tests, two_arms_reach_two_targets);
-  tcase_add_test(tests, arms_that_cannot_both_reach_share_the_miss);
+  tcase_add_test(tests, arms_that_cannot_both_reach_divide_the_error);
   tcase_add_test(tests, extension_is_eased);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -143,7 +143,7 @@ static double deepest_in_itself(const scene *s, const placed_skin *skin) {
 /* ---- Itself ---- */
 
 /* The upper leg sinks onto the lower one, and lies there; without `self` it sinks into it. */
-START_TEST(a_skin_lies_on_itself)
+START_TEST(a_skin_rests_on_itself)
 {
   double max[2] = {0, 0};
   for (int self = 0; self < 2; self++) {
@@ -165,7 +165,7 @@ START_TEST(a_skin_lies_on_itself)
 END_TEST
 
 /* At rest nothing is near: a body that meets itself moves as one that does not. */
-START_TEST(what_is_apart_at_rest_does_not_fight)
+START_TEST(parts_separate_at_rest_get_no_impulses)
 {
   scene s = begin_bar(true, false, 3e4f);
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
@@ -177,7 +177,7 @@ START_TEST(what_is_apart_at_rest_does_not_fight)
 END_TEST
 
 /* Three sections: two that touch at rest, and one apart. */
-START_TEST(sections_that_touch_at_rest_hang_together)
+START_TEST(sections_in_contact_at_rest_stay_connected)
 {
   scene s = scene_begin();
   scene_bodies(&s, 3);
@@ -241,7 +241,7 @@ START_TEST(skins_of_two_push_each_other_off)
 END_TEST
 
 /* Put into each other by nine millimetres, they come apart. */
-START_TEST(what_got_inside_finds_its_way_out)
+START_TEST(parts_that_got_inside_separate)
 {
   sbr_character_id other;
   scene s = begin_two(0, GAP + 2 * THICK - 0.009f, &other);
@@ -258,7 +258,7 @@ END_TEST
 /* And by three or four centimetres, where no face is near: half of a leg is ten. Corners that are pressed
  * flat on the way from four leave the legs swinging by 0.4 to 0.7 m/s, as one begins; in 64 steps a tick by
  * 0.8. */
-START_TEST(what_is_deep_inside_finds_its_way_out)
+START_TEST(parts_deep_inside_separate)
 {
   sbr_character_id other;
   float deep = _i ? 0.04f : 0.03f;
@@ -275,7 +275,7 @@ END_TEST
 
 /* One lies on the ground, the other falls on it, straight or aslant: what that drove into each other is out
  * again. Only the faster of these blows goes deep however it hits. */
-START_TEST(what_is_thrown_down_hard_comes_apart)
+START_TEST(characters_thrown_down_hard_separate)
 {
   static const float speeds_m_s[] = {15, 40};
   bool aslant = _i % 2, fast = _i / 2;
@@ -311,13 +311,13 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_skin_lies_on_itself);
-  tcase_add_test(tests, what_is_apart_at_rest_does_not_fight);
-  tcase_add_test(tests, sections_that_touch_at_rest_hang_together);
+  tcase_add_test(tests, a_skin_rests_on_itself);
+  tcase_add_test(tests, parts_separate_at_rest_get_no_impulses);
+  tcase_add_test(tests, sections_in_contact_at_rest_stay_connected);
   tcase_add_test(tests, skins_of_two_push_each_other_off);
-  tcase_add_test(tests, what_got_inside_finds_its_way_out);
-  tcase_add_loop_test(tests, what_is_thrown_down_hard_comes_apart, 0, HARNESS_FEW(4, 1));
-  tcase_add_loop_test(tests, what_is_deep_inside_finds_its_way_out, 0, 2);
+  tcase_add_test(tests, parts_that_got_inside_separate);
+  tcase_add_loop_test(tests, characters_thrown_down_hard_separate, 0, HARNESS_FEW(4, 1));
+  tcase_add_loop_test(tests, parts_deep_inside_separate, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

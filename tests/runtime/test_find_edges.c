@@ -108,7 +108,7 @@ static int ticks_until_hit(float height) {
 
 /* The one is held at its ends; they are parts of one character. Whatever happens no edge goes in deeper than
  * `inner_thickness`, which is 1 cm, and nothing gives energy. */
-START_TEST(bars_that_fall_across_each_other_do_not_pass)
+START_TEST(falling_crossed_bars_do_not_pass_through)
 {
   const drop *d = &drops[_i];
   scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0});
@@ -142,7 +142,7 @@ static void check_over_beam(scene *s, const sbf_polygon_mesh *hull, const sbf_ve
 }
 
 /* A kinematic rigid beam lies on its edge under one. */
-START_TEST(bars_that_fall_across_a_rigid_edge_do_not_pass)
+START_TEST(bars_that_fall_across_a_rigid_edge_do_not_pass_through)
 {
   static sbf_vec3 beam[8];
   const drop *d = &drops[_i];
@@ -162,7 +162,7 @@ START_TEST(bars_that_fall_across_a_rigid_edge_do_not_pass)
 END_TEST
 
 /* The same beam as a box, a hull and a mesh of the host. */
-START_TEST(bars_that_fall_across_a_collider_do_not_pass)
+START_TEST(bars_that_fall_across_a_collider_do_not_pass_through)
 {
   static const uint32_t sides[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,
       0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
@@ -197,7 +197,7 @@ END_TEST
 
 /* A box of the host's that is narrower than a bar's edges are long, and between its vertices: it lies there.
  */
-START_TEST(a_bar_lies_over_a_narrow_box)
+START_TEST(a_bar_rests_across_a_narrow_box)
 {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
@@ -222,7 +222,7 @@ END_TEST
 
 /* Two characters in the air: what the one gets the other loses, angular momentum to 2e-4 of what is thrown,
  * as places slide on each other within a tick. */
-START_TEST(what_is_thrown_keeps_its_momentum)
+START_TEST(thrown_bars_conserve_momentum)
 {
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
@@ -254,11 +254,12 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_edges");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, bars_that_fall_across_each_other_do_not_pass, 0, sizeof drops / sizeof *drops);
-  tcase_add_loop_test(tests, bars_that_fall_across_a_rigid_edge_do_not_pass, 0, sizeof drops / sizeof *drops);
-  tcase_add_loop_test(tests, bars_that_fall_across_a_collider_do_not_pass, 0, 36);
-  tcase_add_test(tests, a_bar_lies_over_a_narrow_box);
-  tcase_add_test(tests, what_is_thrown_keeps_its_momentum);
+  tcase_add_loop_test(tests, falling_crossed_bars_do_not_pass_through, 0, sizeof drops / sizeof *drops);
+  tcase_add_loop_test(
+      tests, bars_that_fall_across_a_rigid_edge_do_not_pass_through, 0, sizeof drops / sizeof *drops);
+  tcase_add_loop_test(tests, bars_that_fall_across_a_collider_do_not_pass_through, 0, 36);
+  tcase_add_test(tests, a_bar_rests_across_a_narrow_box);
+  tcase_add_test(tests, thrown_bars_conserve_momentum);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

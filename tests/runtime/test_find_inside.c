@@ -1,4 +1,4 @@
-/* Thin limbs, of which no vertex lies in the other where they cross, and rigid rods through soft bodies. */
+/* Crossed thin limbs without a vertex inside the other, and rigid rods through soft bodies. */
 #include <math.h>
 
 #include "contact_scenes.h"
@@ -101,7 +101,7 @@ static const crossing positions[] = {
     {22, 0.01f, 0.002f, 0.07f, 1.2f},
 };
 
-START_TEST(thin_limbs_that_cross_come_apart)
+START_TEST(crossed_thin_limbs_separate)
 {
   const crossing *at = &positions[_i];
   scene s = begin_capsule(at->rings, at->radius);
@@ -134,7 +134,7 @@ typedef struct pierced {
 } pierced;
 static const pierced rods[] = {
     {9, 0.04f, {0.03f, 0.03f, 0.4f}, {0.02f, 0.004f, 0.05f}},  /* a rod through a limb */
-    {7, 0.02f, {0.03f, 0.03f, 0.4f}, {0.03f, 0.004f, 0.02f}},  /* a thin limb, no vertex of which is in it */
+    {7, 0.02f, {0.03f, 0.03f, 0.4f}, {0.03f, 0.004f, 0.02f}},  /* a thin limb without a vertex in it */
     {22, 0.05f, {0.02f, 0.02f, 0.03f}, {0.07f, 0.01f, 0.01f}}, /* what a limb holds all around */
     {13, 0.03f, {0.2f, 0.2f, 0.02f}, {0.3f, 0, 0}},            /* a plate at the end of one */
 };
@@ -176,7 +176,7 @@ static uint32_t places_inside(const scene *s, sbf_vec3 size) {
 }
 
 /* Put there, as a soft body that is pushed over a rigid one: of one character, whose parts they are. */
-START_TEST(rigid_things_come_out_of_soft_bodies)
+START_TEST(rigid_bodies_leave_soft_bodies)
 {
   const pierced *r = &rods[_i];
   scene s = begin_capsule(r->rings, r->radius);
@@ -199,8 +199,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_inside");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, thin_limbs_that_cross_come_apart, 0, sizeof positions / sizeof *positions);
-  tcase_add_loop_test(tests, rigid_things_come_out_of_soft_bodies, 0, sizeof rods / sizeof *rods);
+  tcase_add_loop_test(tests, crossed_thin_limbs_separate, 0, sizeof positions / sizeof *positions);
+  tcase_add_loop_test(tests, rigid_bodies_leave_soft_bodies, 0, sizeof rods / sizeof *rods);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -1,4 +1,4 @@
-/* Strips of cloth that cross each other, no point of which comes near the other's triangles. */
+/* Crossed strips of cloth whose points are far from the other's triangles. */
 #include <math.h>
 
 #include "collision_scenes.h"

@@ -92,7 +92,7 @@ static scene begin_crosswise(const crosswise *at, sbr_tasks tasks, sbr_character
 
 /* At the speed that they are let out with, about 0.2 m/s, not thrown about, and with the momentum that they
  * had. */
-START_TEST(bars_that_lie_crosswise_come_apart)
+START_TEST(crossed_bars_separate)
 {
   sbr_character_id other;
   scene s = begin_crosswise(&positions[_i], (sbr_tasks){0}, &other);
@@ -113,7 +113,7 @@ START_TEST(bars_that_lie_crosswise_come_apart)
 END_TEST
 
 /* On any number of threads, and from a snapshot on the way, which holds the way. */
-START_TEST(the_way_out_is_of_the_same_bits)
+START_TEST(separation_is_equal_on_threads_and_from_snapshots)
 {
   uint64_t hashes[2];
   for (int i = 0; i < 2; i++) {
@@ -158,7 +158,7 @@ static void shift(const scene *s, uint32_t body, sbf_vec3 by) {
 }
 
 /* Two that are apart at rest, put through each other: as two characters. */
-START_TEST(parts_of_one_that_got_through_each_other_come_apart)
+START_TEST(interpenetrating_parts_of_one_body_separate)
 {
   static const sbf_vec3 put[3] = {{0, 0.005f, 0}, {0.11f, 0.03f, 0.06f}, {0.02f, -0.06f, 0.25f}};
   scene s = begin_two_bars((sbf_vec3){0, 0.2f, 0});
@@ -197,9 +197,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_through");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, bars_that_lie_crosswise_come_apart, 0, sizeof positions / sizeof *positions);
-  tcase_add_test(tests, the_way_out_is_of_the_same_bits);
-  tcase_add_loop_test(tests, parts_of_one_that_got_through_each_other_come_apart, 0, 3);
+  tcase_add_loop_test(tests, crossed_bars_separate, 0, sizeof positions / sizeof *positions);
+  tcase_add_test(tests, separation_is_equal_on_threads_and_from_snapshots);
+  tcase_add_loop_test(tests, interpenetrating_parts_of_one_body_separate, 0, 3);
   tcase_add_loop_test(tests, parts_that_overlap_at_rest_stay_at_rest, 0, 3);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -66,7 +66,7 @@ START_TEST(it_follows_even_motion_at_a_constant_distance)
 }
 END_TEST
 
-START_TEST(turns_follow_the_shorter_way_and_come_to_rest)
+START_TEST(rotations_follow_the_shorter_path_and_come_to_rest)
 {
   sbri_follower_step step = sbri_follower_step_of(2, 0.5f, 0, 1.0f / 60);
   sbri_rotation_follower f;
@@ -90,7 +90,7 @@ int main(void) {
   tcase_add_test(tests, a_step_is_answered_exactly_at_any_frame_time);
   tcase_add_test(tests, two_steps_are_one_of_twice_the_time);
   tcase_add_test(tests, it_follows_even_motion_at_a_constant_distance);
-  tcase_add_test(tests, turns_follow_the_shorter_way_and_come_to_rest);
+  tcase_add_test(tests, rotations_follow_the_shorter_path_and_come_to_rest);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

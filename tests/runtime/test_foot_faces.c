@@ -24,7 +24,7 @@ static sbf_vec3 beside_at(float yaw) {
   return sbri_rotate(sbri_quat_about(UP, yaw), sbri_vec3(0.02f * SCALE, 0, -0.05f * SCALE));
 }
 
-START_TEST(on_level_ground_it_turns_alone)
+START_TEST(on_level_ground_only_the_heading_changes)
 {
   gait_stage stage;
   sbri_foot *foot = begin(&stage);
@@ -53,7 +53,7 @@ START_TEST(on_a_slope_it_tilts_with_it)
 }
 END_TEST
 
-START_TEST(a_body_that_turns_on_moves_what_goes_by_its_heading_alone)
+START_TEST(a_rotating_body_changes_only_the_heading_of_the_foot)
 {
   gait_stage stage;
   sbri_foot *foot = begin(&stage);
@@ -71,9 +71,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("foot_faces");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, on_level_ground_it_turns_alone);
+  tcase_add_test(tests, on_level_ground_only_the_heading_changes);
   tcase_add_test(tests, on_a_slope_it_tilts_with_it);
-  tcase_add_test(tests, a_body_that_turns_on_moves_what_goes_by_its_heading_alone);
+  tcase_add_test(tests, a_rotating_body_changes_only_the_heading_of_the_foot);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

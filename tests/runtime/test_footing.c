@@ -44,7 +44,7 @@ static double hillside(const sbr_ground *ground, double x, double z, sbf_vec3 *n
   return rise * x;
 }
 
-START_TEST(no_foot_goes_over_an_edge)
+START_TEST(no_foot_steps_over_an_edge)
 {
   gait_stage w;
   gait_stage_begin_on(&w, quadruped_asset(), cliff, 0);
@@ -98,7 +98,7 @@ START_TEST(feet_and_body_tilt_with_the_ground)
 }
 END_TEST
 
-START_TEST(a_sole_lies_as_a_board_does)
+START_TEST(a_sole_rests_as_a_board_does)
 {
   gait_stage w;
   gait_stage_begin_on(&w, quadruped_asset(), bank, 0.25);
@@ -150,7 +150,7 @@ static float deepest(const gait_stage *w) {
 }
 
 /* Boards and a pole lie across the way, narrower than a step and higher than one is lifted by itself. */
-START_TEST(feet_go_over_what_lies_between)
+START_TEST(feet_clear_obstacles_in_between)
 {
   static const sbr_obstacle things[] = {
       {SBR_OBSTACLE_BOX, {0, 0.03, 0.6}, {2, 0.03f, 0.02f}, 0}, /* 6 cm high, where feet are lifted by 4 */
@@ -257,7 +257,7 @@ static double ridge(const sbr_ground *ground, double x, double z, sbf_vec3 *norm
   return fabs(x) < 0.03 ? ground->parameters[0] : 0;
 }
 
-START_TEST(the_belly_keeps_off_the_ground)
+START_TEST(the_belly_stays_above_the_ground)
 {
   const float low = 0.2f, high = 0.195f;
   float lowest[2];
@@ -284,15 +284,15 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("footing");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, no_foot_goes_over_an_edge);
+  tcase_add_test(tests, no_foot_steps_over_an_edge);
   tcase_add_test(tests, slopes_are_walked_unless_they_are_too_steep);
   tcase_add_test(tests, feet_and_body_tilt_with_the_ground);
-  tcase_add_test(tests, a_sole_lies_as_a_board_does);
+  tcase_add_test(tests, a_sole_rests_as_a_board_does);
   tcase_add_test(tests, steering_sees_no_farther_than_its_range);
-  tcase_add_test(tests, feet_go_over_what_lies_between);
+  tcase_add_test(tests, feet_clear_obstacles_in_between);
   tcase_add_test(tests, a_wall_is_not_climbed);
   tcase_add_test(tests, without_a_chest_it_pitches_as_its_feet_lie);
-  tcase_add_test(tests, the_belly_keeps_off_the_ground);
+  tcase_add_test(tests, the_belly_stays_above_the_ground);
   tcase_add_test(tests, every_kind_of_ground_carries_the_same_walk);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -126,7 +126,7 @@ START_TEST(walks_forward_step_by_step)
 }
 END_TEST
 
-START_TEST(walks_backward_sideways_and_turns)
+START_TEST(walks_backward_sideways_and_in_curves)
 {
   const float drives[][3] = {{-0.25f, 0, 0}, {0, 0.15f, 0}, {0, 0, 0.8f}, {0.3f, 0, 0.6f}, {0.3f, 0, -0.6f}};
   for (size_t d = 0; d < sizeof drives / sizeof *drives; d++) {
@@ -139,7 +139,7 @@ START_TEST(walks_backward_sideways_and_turns)
 }
 END_TEST
 
-START_TEST(feet_come_home_when_it_stops)
+START_TEST(feet_return_home_when_it_stops)
 {
   walk w;
   begin(&w, flat, 0);
@@ -210,7 +210,7 @@ START_TEST(tail_lags_and_overshoots)
 }
 END_TEST
 
-START_TEST(head_leads_a_turn_and_comes_back)
+START_TEST(the_head_leads_a_rotation_and_returns)
 {
   walk w;
   begin(&w, flat, 0);
@@ -230,7 +230,7 @@ START_TEST(head_leads_a_turn_and_comes_back)
 }
 END_TEST
 
-START_TEST(a_knee_turns_with_the_bone_of_its_pole)
+START_TEST(a_knee_rotates_with_the_bone_of_its_pole)
 {
   walk with_hips, with_head;
   begin(&with_hips, flat, 0);
@@ -254,7 +254,7 @@ START_TEST(a_knee_turns_with_the_bone_of_its_pole)
 }
 END_TEST
 
-START_TEST(knees_bend_both_ways_and_point_at_their_poles)
+START_TEST(knees_bend_in_both_directions_and_point_at_their_poles)
 {
   walk w;
   begin(&w, flat, 0);
@@ -311,7 +311,7 @@ START_TEST(the_same_speed_at_any_size)
 }
 END_TEST
 
-START_TEST(a_body_left_behind_puts_its_feet_down_anew)
+START_TEST(a_body_far_from_its_feet_repositions_them)
 {
   walk w;
   begin(&w, flat, 0);
@@ -363,7 +363,7 @@ START_TEST(a_taller_copy_walks_at_the_same_speed)
 END_TEST
 
 /* Turning on the spot, more than twice round: what follows the heading goes on where it begins again. */
-START_TEST(nothing_jumps_where_headings_begin_again)
+START_TEST(nothing_jumps_where_headings_wrap_around)
 {
   walk w;
   begin(&w, flat, 0);
@@ -383,7 +383,7 @@ START_TEST(nothing_jumps_where_headings_begin_again)
 END_TEST
 
 /* A foot within its margin steps home by itself; one farther off is there at once. */
-START_TEST(a_foot_beyond_its_margin_is_put_down_anew)
+START_TEST(a_foot_beyond_its_margin_is_placed_again)
 {
   for (int far = 0; far < 2; far++) {
     walk w;
@@ -439,8 +439,8 @@ START_TEST(large_bodies_reach_their_speed_and_keep_it)
 }
 END_TEST
 
-/* Beyond what it can walk a foot at a time. */
-START_TEST(steps_are_quicker_when_it_goes_faster)
+/* Faster than it can walk one foot at a time. */
+START_TEST(steps_are_quicker_at_higher_speed)
 {
   walk w;
   begin(&w, flat, 0);
@@ -462,8 +462,8 @@ START_TEST(steps_are_quicker_when_it_goes_faster)
 }
 END_TEST
 
-/* Bones that share a leg's twist, a guard on its shin: no part of what is solved, but of what moves. */
-START_TEST(what_hangs_on_a_leg_goes_along)
+/* Twist bones of a leg and a guard on its shin: not solved, but moved with the leg. */
+START_TEST(children_of_a_leg_follow_it)
 {
   enum { PLAIN = 20, ALL = 22 };
   static const int32_t parents[2] = {8, 9};
@@ -505,22 +505,22 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, standing_is_the_rest_pose);
   tcase_add_test(tests, walks_forward_step_by_step);
-  tcase_add_test(tests, walks_backward_sideways_and_turns);
-  tcase_add_test(tests, feet_come_home_when_it_stops);
+  tcase_add_test(tests, walks_backward_sideways_and_in_curves);
+  tcase_add_test(tests, feet_return_home_when_it_stops);
   tcase_add_test(tests, feet_stand_on_a_slope_and_the_body_follows);
   tcase_add_test(tests, tail_lags_and_overshoots);
-  tcase_add_test(tests, head_leads_a_turn_and_comes_back);
-  tcase_add_test(tests, a_knee_turns_with_the_bone_of_its_pole);
-  tcase_add_test(tests, knees_bend_both_ways_and_point_at_their_poles);
+  tcase_add_test(tests, the_head_leads_a_rotation_and_returns);
+  tcase_add_test(tests, a_knee_rotates_with_the_bone_of_its_pole);
+  tcase_add_test(tests, knees_bend_in_both_directions_and_point_at_their_poles);
   tcase_add_test(tests, the_same_speed_at_any_size);
-  tcase_add_test(tests, a_body_left_behind_puts_its_feet_down_anew);
+  tcase_add_test(tests, a_body_far_from_its_feet_repositions_them);
   tcase_add_test(tests, moving_the_origin_changes_nothing);
   tcase_add_test(tests, a_taller_copy_walks_at_the_same_speed);
-  tcase_add_test(tests, nothing_jumps_where_headings_begin_again);
-  tcase_add_test(tests, a_foot_beyond_its_margin_is_put_down_anew);
+  tcase_add_test(tests, nothing_jumps_where_headings_wrap_around);
+  tcase_add_test(tests, a_foot_beyond_its_margin_is_placed_again);
   tcase_add_loop_test(tests, large_bodies_reach_their_speed_and_keep_it, 0, 3);
-  tcase_add_test(tests, steps_are_quicker_when_it_goes_faster);
-  tcase_add_test(tests, what_hangs_on_a_leg_goes_along);
+  tcase_add_test(tests, steps_are_quicker_at_higher_speed);
+  tcase_add_test(tests, children_of_a_leg_follow_it);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -4,7 +4,7 @@
 
 static const float TICK_S = 1.0f / 60;
 
-START_TEST(from_rest_to_rest_a_glide_runs_along_the_smooth_rise)
+START_TEST(a_glide_from_rest_to_rest_follows_the_smooth_rise)
 {
   enum { TICKS = 30 };
   sbri_glide g = sbri_glide_at(2);
@@ -44,7 +44,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("glide");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, from_rest_to_rest_a_glide_runs_along_the_smooth_rise);
+  tcase_add_test(tests, a_glide_from_rest_to_rest_follows_the_smooth_rise);
   tcase_add_test(tests, the_smooth_rise_rests_at_both_ends_and_beyond_them);
   tcase_add_test(tests, a_target_that_moves_is_reached_without_a_jump_of_speed);
   suite_add_tcase(suite, tests);

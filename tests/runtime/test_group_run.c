@@ -47,7 +47,7 @@ START_TEST(boxes_stand_on_each_other)
 }
 END_TEST
 
-START_TEST(a_hit_keeps_momentum)
+START_TEST(a_hit_conserves_momentum)
 {
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.3f, 0.2f}, 1);
@@ -104,7 +104,7 @@ END_TEST
 
 /* ---- Soft with rigid ---- */
 
-START_TEST(a_sheet_holds_what_falls_on_it)
+START_TEST(a_sheet_carries_fallen_bodies)
 {
   scene s = contact_scene_begin(weight);
   scene_bodies(&s, 1);
@@ -145,7 +145,7 @@ END_TEST
 
 /* Over a ball of 4 kg that lies on the ground and is then pushed away under it: no point gets inside,
  * nor nearer than half a millimetre of the five that the cloth keeps. */
-START_TEST(cloth_lies_over_a_ball_that_moves)
+START_TEST(cloth_rests_on_a_moving_ball)
 {
   scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
@@ -251,7 +251,7 @@ START_TEST(soft_cubes_stand_on_each_other)
 }
 END_TEST
 
-START_TEST(a_soft_cube_lies_still)
+START_TEST(a_soft_cube_rests)
 {
   scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
@@ -268,8 +268,8 @@ START_TEST(a_soft_cube_lies_still)
 }
 END_TEST
 
-/* What touches push with goes on from a snapshot as it would have without. */
-START_TEST(snapshots_hold_what_touches_push_with)
+/* Contact impulses continue from a snapshot as without it. */
+START_TEST(snapshots_store_contact_impulses)
 {
   scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
@@ -294,7 +294,7 @@ END_TEST
 
 /* At 60 m/s they are crushed within a tick, and need shorter steps in that: else they would lose their shape
  * for good and be put back into it. */
-START_TEST(soft_cubes_of_two_characters_keep_momentum)
+START_TEST(soft_cubes_of_two_characters_conserve_momentum)
 {
   const float speeds[3] = {2, 40, 60}, thrown = speeds[_i];
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
@@ -323,8 +323,8 @@ START_TEST(soft_cubes_of_two_characters_keep_momentum)
 }
 END_TEST
 
-/* What lies in each other at rest stays as it is; what the filters part passes through. */
-START_TEST(overlap_at_rest_does_not_fight)
+/* Overlaps at rest stay; bodies excluded by filters pass through each other. */
+START_TEST(overlap_at_rest_causes_no_impulses)
 {
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 2);
@@ -342,7 +342,7 @@ START_TEST(overlap_at_rest_does_not_fight)
 }
 END_TEST
 
-START_TEST(filters_let_through)
+START_TEST(filters_disable_contacts)
 {
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
@@ -390,18 +390,18 @@ int main(void) {
   Suite *suite = suite_create("group_run");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, boxes_stand_on_each_other);
-  tcase_add_test(tests, a_hit_keeps_momentum);
+  tcase_add_test(tests, a_hit_conserves_momentum);
   tcase_add_loop_test(tests, boxes_bounce_by_their_restitution, 0, 3);
   tcase_add_test(tests, friction_is_mutual);
-  tcase_add_test(tests, a_sheet_holds_what_falls_on_it);
-  tcase_add_test(tests, cloth_lies_over_a_ball_that_moves);
+  tcase_add_test(tests, a_sheet_carries_fallen_bodies);
+  tcase_add_test(tests, cloth_rests_on_a_moving_ball);
   tcase_add_test(tests, a_fast_ball_does_not_pass_a_sheet);
   tcase_add_test(tests, soft_cubes_stand_on_each_other);
-  tcase_add_test(tests, a_soft_cube_lies_still);
-  tcase_add_test(tests, snapshots_hold_what_touches_push_with);
-  tcase_add_loop_test(tests, soft_cubes_of_two_characters_keep_momentum, 0, 3);
-  tcase_add_test(tests, overlap_at_rest_does_not_fight);
-  tcase_add_test(tests, filters_let_through);
+  tcase_add_test(tests, a_soft_cube_rests);
+  tcase_add_test(tests, snapshots_store_contact_impulses);
+  tcase_add_loop_test(tests, soft_cubes_of_two_characters_conserve_momentum, 0, 3);
+  tcase_add_test(tests, overlap_at_rest_causes_no_impulses);
+  tcase_add_test(tests, filters_disable_contacts);
   tcase_add_test(tests, any_number_of_threads_gives_the_same_bits);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

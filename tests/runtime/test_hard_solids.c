@@ -53,7 +53,7 @@ static void make(sbf_scheme scheme, kind what, hardship how) {
   scene_start(&s);
 }
 
-START_TEST(hard_cases_hold)
+START_TEST(hard_cases_stay_stable)
 {
   hardship how = (hardship)(_i % HARD_CASES);
   sbf_scheme scheme = schemes[_i / HARD_CASES];
@@ -81,7 +81,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("hard_solids");
   TCase *c = tcase_create("hard_solids");
-  tcase_add_loop_test(c, hard_cases_hold, 0, SCHEME_COUNT * HARD_CASES);
+  tcase_add_loop_test(c, hard_cases_stay_stable, 0, SCHEME_COUNT * HARD_CASES);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

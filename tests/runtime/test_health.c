@@ -51,7 +51,7 @@ START_TEST(volume_is_measured_against_rest)
 }
 END_TEST
 
-START_TEST(what_is_not_there_is_all_zero)
+START_TEST(health_of_missing_characters_is_zero)
 {
   scene s = section();
   sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 3);
@@ -65,7 +65,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("health");
   tcase_add_test(c, energies_of_a_stretched_falling_pair);
   tcase_add_test(c, volume_is_measured_against_rest);
-  tcase_add_test(c, what_is_not_there_is_all_zero);
+  tcase_add_test(c, health_of_missing_characters_is_zero);
   suite_add_tcase(s, c);
   return s;
 }

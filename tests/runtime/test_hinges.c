@@ -1,4 +1,4 @@
-/* What sheets are damped by, the lowest mode that bends them, and what is not taken from it. */
+/* Damping of sheets: the lowest bending mode, and rigid motion without damping. */
 #include "prepare/hinges.h"
 
 #include <math.h>

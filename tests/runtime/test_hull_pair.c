@@ -93,7 +93,7 @@ START_TEST(crossing_edges_have_one_contact)
 END_TEST
 
 /* The gap that is found is the least way out: moved by it along the normal, they just touch. */
-START_TEST(the_way_out_is_the_least)
+START_TEST(the_penetration_is_the_smallest_separating_distance)
 {
   sbfi_arena arena;
   arena_begin(&arena);
@@ -130,7 +130,7 @@ int main(void) {
   tcase_add_test(tests, parallel_faces_have_four_contacts);
   tcase_add_test(tests, a_tip_is_in_contact);
   tcase_add_test(tests, crossing_edges_have_one_contact);
-  tcase_add_test(tests, the_way_out_is_the_least);
+  tcase_add_test(tests, the_penetration_is_the_smallest_separating_distance);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

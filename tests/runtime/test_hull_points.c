@@ -119,7 +119,7 @@ START_TEST(many_points)
 END_TEST
 
 /* One place, a line, a plane askew. */
-START_TEST(what_encloses_nothing)
+START_TEST(flat_point_sets_have_no_hull)
 {
   const sbf_vec3 along[3][2] = {{{0, 0, 0}, {0, 0, 0}}, {{1, 2, 3}, {0, 0, 0}}, {{1, 2, 3}, {3, -1, 0}}};
   sbr_shape_definition d = sbr_default_shape_definition();
@@ -177,7 +177,7 @@ int main(void) {
   tcase_add_loop_test(tests, points_in_planes_and_twice, 1, 3);
   tcase_add_loop_test(tests, clouds, 0, 60);
   tcase_add_test(tests, many_points);
-  tcase_add_loop_test(tests, what_encloses_nothing, 0, 3);
+  tcase_add_loop_test(tests, flat_point_sets_have_no_hull, 0, 3);
   tcase_add_test(tests, ragged_boxes);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -41,7 +41,7 @@ START_TEST(keeps_hinges)
 { ik_expect_keeps_hinges(sbri_ik_spline, 0); }
 END_TEST
 
-START_TEST(what_is_too_far_makes_it_straight)
+START_TEST(targets_out_of_range_straighten_the_chain)
 {
   ik_chain_fixture f;
   ik_chain_bent(&f);
@@ -51,7 +51,7 @@ START_TEST(what_is_too_far_makes_it_straight)
 }
 END_TEST
 
-START_TEST(odd_targets_leave_it_whole)
+START_TEST(invalid_targets_keep_it_finite)
 {
   ik_chain_fixture f;
   ik_chain_straight(&f);
@@ -75,8 +75,8 @@ int main(void) {
   tcase_add_test(tests, ends_at_the_target_on_one_smooth_bow);
   tcase_add_test(tests, keeps_limits);
   tcase_add_test(tests, keeps_hinges);
-  tcase_add_test(tests, what_is_too_far_makes_it_straight);
-  tcase_add_test(tests, odd_targets_leave_it_whole);
+  tcase_add_test(tests, targets_out_of_range_straighten_the_chain);
+  tcase_add_test(tests, invalid_targets_keep_it_finite);
   tcase_add_test(tests, extension_is_eased);
   tcase_add_test(tests, copies_the_target_s_rotation);
   suite_add_tcase(suite, tests);

@@ -80,7 +80,7 @@ START_TEST(a_foot_moves_to_its_target_and_back)
 }
 END_TEST
 
-START_TEST(weights_are_kept_between_none_and_all)
+START_TEST(weights_are_clamped_between_zero_and_one)
 {
   walker w = begin();
   ticks(&w, 2);
@@ -101,7 +101,7 @@ START_TEST(weights_are_kept_between_none_and_all)
 }
 END_TEST
 
-START_TEST(targets_that_mean_nothing_are_ignored)
+START_TEST(invalid_targets_are_ignored)
 {
   walker w = begin();
   ticks(&w, 2);
@@ -122,8 +122,8 @@ int main(void) {
   Suite *suite = suite_create("ik_target");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_foot_moves_to_its_target_and_back);
-  tcase_add_test(tests, weights_are_kept_between_none_and_all);
-  tcase_add_test(tests, targets_that_mean_nothing_are_ignored);
+  tcase_add_test(tests, weights_are_clamped_between_zero_and_one);
+  tcase_add_test(tests, invalid_targets_are_ignored);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

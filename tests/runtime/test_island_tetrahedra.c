@@ -54,7 +54,7 @@ static found check(const sbri_island *island, uint32_t begin, uint32_t end, uint
 }
 
 /* What forces go through, and what sweeps do: each element once; sweeps share no free point in a block. */
-START_TEST(blocks_hold_each_once)
+START_TEST(blocks_contain_each_tetrahedron_once)
 {
   scene s = scene_begin();
   if (_i == 0) lattice_box_hold(&box);
@@ -167,7 +167,7 @@ START_TEST(tetrahedra_of_a_level_of_springs_do_not_act)
 }
 END_TEST
 
-START_TEST(the_relaxation_scheme_gives_way)
+START_TEST(the_relaxation_scheme_is_replaced)
 {
   scene s = scene_begin();
   scene_lattice(&s, 0, &box)->simulation.scheme = SBF_SCHEME_RELAXATION;
@@ -192,12 +192,12 @@ int main(void) {
   Suite *s = suite_create("island_tetrahedra");
   TCase *c = tcase_create("island_tetrahedra");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_loop_test(c, blocks_hold_each_once, 0, 2);
+  tcase_add_loop_test(c, blocks_contain_each_tetrahedron_once, 0, 2);
   tcase_add_test(c, numbers_of_a_lane);
   tcase_add_test(c, elements_are_damped_as_stated);
   tcase_add_test(c, beside_tetrahedra_only_extra_springs_act);
   tcase_add_test(c, tetrahedra_of_a_level_of_springs_do_not_act);
-  tcase_add_test(c, the_relaxation_scheme_gives_way);
+  tcase_add_test(c, the_relaxation_scheme_is_replaced);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -48,7 +48,7 @@ START_TEST(springs_between_bodies_act)
 }
 END_TEST
 
-START_TEST(springs_between_levels_that_are_not_simulated_do_not)
+START_TEST(springs_between_levels_that_are_not_simulated_do_nothing)
 {
   scene s = joined();
   ((sbf_cross_springs *)(uintptr_t)s.asset->cross_springs.at)->level_b = 1;
@@ -61,7 +61,7 @@ START_TEST(springs_between_levels_that_are_not_simulated_do_not)
 END_TEST
 
 /* A load does not see it: which points there are is a matter of the levels named. */
-START_TEST(springs_to_points_that_are_not_there_are_refused)
+START_TEST(springs_to_missing_points_are_refused)
 {
   for (int end = 0; end < 2; end++) {
     scene s = joined();
@@ -73,7 +73,7 @@ START_TEST(springs_to_points_that_are_not_there_are_refused)
     ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_BAD_INPUT);
     ck_assert_int_eq(error.code, SBF_CODE_CROSS_SPRING_POINT);
     ck_assert_ptr_nonnull(strstr(error.message, "1000000"));
-    cross->level_b = 1; /* of what is not simulated nothing is asked */
+    cross->level_b = 1; /* nothing is required of levels that are not simulated */
     scene_start(&s);
     scene_free(&s);
   }
@@ -104,7 +104,7 @@ START_TEST(levels_are_chosen)
 }
 END_TEST
 
-START_TEST(a_level_that_is_stepped_is_taken_where_there_is_one)
+START_TEST(a_level_that_can_be_stepped_is_preferred)
 {
   scene s = scene_begin();
   const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
@@ -130,7 +130,7 @@ START_TEST(a_level_that_is_stepped_is_taken_where_there_is_one)
 }
 END_TEST
 
-START_TEST(what_is_not_simulated_is_refused)
+START_TEST(bodies_that_are_not_simulated_are_refused)
 {
   scene s = scene_begin();
   const sbf_vec3 position = {0, 0, 0};
@@ -148,11 +148,11 @@ static Suite *suite(void) {
   Suite *s = suite_create("islands");
   TCase *c = tcase_create("islands");
   tcase_add_test(c, springs_between_bodies_act);
-  tcase_add_test(c, springs_between_levels_that_are_not_simulated_do_not);
-  tcase_add_test(c, springs_to_points_that_are_not_there_are_refused);
+  tcase_add_test(c, springs_between_levels_that_are_not_simulated_do_nothing);
+  tcase_add_test(c, springs_to_missing_points_are_refused);
   tcase_add_test(c, levels_are_chosen);
-  tcase_add_test(c, a_level_that_is_stepped_is_taken_where_there_is_one);
-  tcase_add_test(c, what_is_not_simulated_is_refused);
+  tcase_add_test(c, a_level_that_can_be_stepped_is_preferred);
+  tcase_add_test(c, bodies_that_are_not_simulated_are_refused);
   suite_add_tcase(s, c);
   return s;
 }

@@ -65,8 +65,8 @@ START_TEST(rates_are_differences)
 }
 END_TEST
 
-/* What is held has its value and rate at 0. */
-START_TEST(held_coordinates_agree_at_zero)
+/* Locked axes have value and rate 0. */
+START_TEST(locked_coordinates_agree_at_zero)
 {
   uint32_t seed = 3;
   begin(SBF_JOINT_KIND_FIXED, &seed);
@@ -89,7 +89,7 @@ int main(void) {
   Suite *suite = suite_create("joint_place");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, rates_are_differences);
-  tcase_add_test(tests, held_coordinates_agree_at_zero);
+  tcase_add_test(tests, locked_coordinates_agree_at_zero);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -51,7 +51,7 @@ static float angular_velocity(const scene *s) {
 }
 
 /* From turn to turn the weight's work is what friction takes: cos b - cos a = friction (a + b). */
-START_TEST(each_swing_is_shorter_by_what_friction_takes)
+START_TEST(friction_shortens_each_swing)
 {
   scene s = arm_of(_i, 0.6f, FRICTION);
   float turned_at = 0.6f, max = 0, before = 0.6f;
@@ -75,8 +75,8 @@ START_TEST(each_swing_is_shorter_by_what_friction_takes)
 }
 END_TEST
 
-/* What it can hold it holds, but for a creep below a milliradian a second; what is more breaks loose. */
-START_TEST(it_holds_what_it_can)
+/* Loads up to the bound stick, with a creep below a milliradian a second; greater loads slip. */
+START_TEST(friction_carries_loads_up_to_its_bound)
 {
   bool holds = _i < KINDS;
   float aside = (holds ? 0.9f : 1.5f) * FRICTION;
@@ -93,7 +93,7 @@ END_TEST
 /* Turned without weight it slows down evenly by a = torque / moment and stands where that has used up its
  * speed, after w^2 / 2a: beyond that by less than a step's way at the speed that it began with, however many
  * steps. There it stays. */
-START_TEST(what_is_turned_slows_down_evenly)
+START_TEST(a_rotating_body_decelerates_evenly)
 {
   const uint32_t steps[4] = {4, 8, 16, 64};
   const float side = 0.1f, moment = KG * (REACH_M * REACH_M + side * side / 6);
@@ -119,7 +119,7 @@ START_TEST(what_is_turned_slows_down_evenly)
 END_TEST
 
 /* A hit on an arm at rest loses no more than friction takes in the tick. */
-START_TEST(a_hit_is_not_held)
+START_TEST(a_hit_overcomes_friction)
 {
   float after[2];
   for (int with = 0; with < 2; with++) {
@@ -140,10 +140,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("joint_friction");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, each_swing_is_shorter_by_what_friction_takes, 0, KINDS);
-  tcase_add_loop_test(tests, it_holds_what_it_can, 0, 2 * KINDS);
-  tcase_add_loop_test(tests, what_is_turned_slows_down_evenly, 0, KINDS);
-  tcase_add_loop_test(tests, a_hit_is_not_held, 0, KINDS);
+  tcase_add_loop_test(tests, friction_shortens_each_swing, 0, KINDS);
+  tcase_add_loop_test(tests, friction_carries_loads_up_to_its_bound, 0, 2 * KINDS);
+  tcase_add_loop_test(tests, a_rotating_body_decelerates_evenly, 0, KINDS);
+  tcase_add_loop_test(tests, a_hit_overcomes_friction, 0, KINDS);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

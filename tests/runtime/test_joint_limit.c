@@ -21,7 +21,7 @@ static sbri_joint_limit random_limit(uint32_t *seed) {
   return limit;
 }
 
-START_TEST(parts_make_the_whole_again)
+START_TEST(parts_multiply_to_the_whole)
 {
   uint32_t seed = 1;
   for (int i = 0; i < 20000; i++) {
@@ -34,7 +34,7 @@ START_TEST(parts_make_the_whole_again)
 }
 END_TEST
 
-START_TEST(what_is_within_is_not_touched)
+START_TEST(poses_within_the_limit_are_unchanged)
 {
   uint32_t seed = 2;
   int within = 0;
@@ -61,7 +61,7 @@ START_TEST(twice_is_once)
 }
 END_TEST
 
-START_TEST(a_hinge_keeps_the_turn_about_its_axis)
+START_TEST(a_hinge_keeps_the_rotation_about_its_axis)
 {
   sbri_joint_limit hinge = {
       .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {-0.5f, 2}, .cone = 0, .active = true};
@@ -73,7 +73,7 @@ START_TEST(a_hinge_keeps_the_turn_about_its_axis)
 }
 END_TEST
 
-START_TEST(the_nearer_bound_is_taken_across_half_a_turn)
+START_TEST(the_nearer_bound_is_used_across_half_a_rotation)
 {
   sbri_joint_limit limit = {
       .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {-3, 1}, .cone = 1, .active = true};
@@ -85,7 +85,7 @@ START_TEST(the_nearer_bound_is_taken_across_half_a_turn)
 END_TEST
 
 /* Near bounds too, where it must not say more than the angles do. */
-START_TEST(what_a_limit_is_ready_for_changes_no_answer)
+START_TEST(precomputed_bounds_do_not_change_results)
 {
   uint32_t seed = 4;
   int pinned = 0, broken = 0;
@@ -142,13 +142,13 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("joint_limit");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, parts_make_the_whole_again);
-  tcase_add_test(tests, what_is_within_is_not_touched);
+  tcase_add_test(tests, parts_multiply_to_the_whole);
+  tcase_add_test(tests, poses_within_the_limit_are_unchanged);
   tcase_add_test(tests, twice_is_once);
-  tcase_add_test(tests, a_hinge_keeps_the_turn_about_its_axis);
-  tcase_add_test(tests, the_nearer_bound_is_taken_across_half_a_turn);
+  tcase_add_test(tests, a_hinge_keeps_the_rotation_about_its_axis);
+  tcase_add_test(tests, the_nearer_bound_is_used_across_half_a_rotation);
   tcase_add_test(tests, a_box_without_zero_wins_over_the_cone);
-  tcase_add_test(tests, what_a_limit_is_ready_for_changes_no_answer);
+  tcase_add_test(tests, precomputed_bounds_do_not_change_results);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -45,8 +45,8 @@ static double period(const scene *s, uint32_t joint, sbf_joint_axis axis, double
 
 static const double small_box = 0.02 * 0.02 / 6; /* I / m of a cube of 2 cm */
 
-/* A cone's bound is no wall at its axis: what hangs along it swings out either way, at once. */
-START_TEST(a_cone_holds_nothing_at_its_axis)
+/* A cone's bound does not act at its axis: a body that hangs along the axis swings freely to both sides. */
+START_TEST(a_cone_does_not_act_at_its_axis)
 {
   scene s = begin();
   rigid_box(&s, (sbf_vec3){0, -1, 0}, (sbf_vec3){0.02f, 0.02f, 0.02f}, 1);
@@ -123,7 +123,7 @@ START_TEST(a_slider_slides)
 END_TEST
 
 /* A screw without a thread: falls along its axis and turns about it, each as if alone. */
-START_TEST(a_cylinder_falls_and_turns)
+START_TEST(a_cylinder_joint_falls_and_rotates)
 {
   scene s = begin();
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
@@ -249,7 +249,7 @@ END_TEST
 /* ---- Limits and drives ---- */
 
 /* A level arm falls onto its limit and lies there; run against it hard, it is never beyond by a degree. */
-START_TEST(limits_hold)
+START_TEST(limits_are_respected)
 {
   scene s = begin();
   rigid_box(&s, (sbf_vec3){0.5f, 0, 0}, (sbf_vec3){1, 0.1f, 0.1f}, 2);
@@ -272,7 +272,7 @@ END_TEST
 
 /* A hinge may turn by more than half a turn: it passes pi, where its angle is read from the other side, and
  * stops at its bound of 4 rad, to either side. */
-START_TEST(a_hinge_turns_beyond_half_a_turn)
+START_TEST(a_hinge_rotates_beyond_half_a_rotation)
 {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
@@ -297,7 +297,7 @@ START_TEST(a_hinge_turns_beyond_half_a_turn)
 END_TEST
 
 /* A weight on a limit's spring: m g / k beyond the bound, and it never pulls. */
-START_TEST(a_limit_spring_gives_way)
+START_TEST(a_limit_spring_yields)
 {
   scene s = begin();
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 2);
@@ -359,7 +359,7 @@ START_TEST(a_drive_answers_a_step)
 }
 END_TEST
 
-/* A drive gives no more than its maximum: it holds what that bears, and lets the rest fall. */
+/* A drive's force is at most its maximum: it carries a load up to that, and a greater load falls. */
 START_TEST(a_drive_has_a_maximum)
 {
   for (int strong = 0; strong < 2; strong++) {
@@ -380,7 +380,7 @@ START_TEST(a_drive_has_a_maximum)
 }
 END_TEST
 
-/* A joint that bears 15 N holds a kilogram, and breaks under two. */
+/* A joint with a strength of 15 N carries one kilogram and breaks under two. */
 START_TEST(joints_break)
 {
   for (int heavy = 0; heavy < 2; heavy++) {
@@ -401,19 +401,19 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("joint_rows");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, a_cone_holds_nothing_at_its_axis, 0, 4);
+  tcase_add_loop_test(tests, a_cone_does_not_act_at_its_axis, 0, 4);
   tcase_add_test(tests, a_hinge_swings_as_a_pendulum);
   tcase_add_test(tests, a_ball_joint_swings_round);
   tcase_add_test(tests, a_slider_slides);
-  tcase_add_test(tests, a_cylinder_falls_and_turns);
+  tcase_add_test(tests, a_cylinder_joint_falls_and_rotates);
   tcase_add_test(tests, points_on_lines_and_in_planes);
   tcase_add_test(tests, a_fixed_body_stays);
   tcase_add_test(tests, a_distance_is_kept_or_limited);
   tcase_add_test(tests, a_pulley_is_atwoods_machine);
   tcase_add_test(tests, six_freedoms);
-  tcase_add_test(tests, limits_hold);
-  tcase_add_loop_test(tests, a_hinge_turns_beyond_half_a_turn, 0, 2);
-  tcase_add_test(tests, a_limit_spring_gives_way);
+  tcase_add_test(tests, limits_are_respected);
+  tcase_add_loop_test(tests, a_hinge_rotates_beyond_half_a_rotation, 0, 2);
+  tcase_add_test(tests, a_limit_spring_yields);
   tcase_add_test(tests, a_hard_limit_throws_back);
   tcase_add_test(tests, a_drive_answers_a_step);
   tcase_add_test(tests, a_drive_has_a_maximum);

@@ -116,7 +116,7 @@ static const jump jumps[] = {
 
 /* What it comes to rest in is what the same motion leads to when it is slow. A bar pushed together to a third
  * of its length in one tick held 1.8 times as much energy for good. */
-START_TEST(a_jump_of_cells_leaves_nothing_crushed)
+START_TEST(a_jump_by_cells_leaves_nothing_crushed)
 {
   jump j = jumps[_i], slow = j;
   slow.kind = SLOWLY;
@@ -130,7 +130,7 @@ START_TEST(a_jump_of_cells_leaves_nothing_crushed)
 END_TEST
 
 /* Ends pushed together until a quarter of the bar is left: no shape there is without crushed elements. */
-START_TEST(what_is_crushed_is_reported)
+START_TEST(crushed_bodies_are_reported)
 {
   jump j = {{-0.45f, 0, 0}, 2e4f, 0.3f, SBF_SCHEME_AUTOMATIC, AT_ONCE};
   ck_assert_float_lt(health_after(&j, 120).min_element_ratio, 0.2f);
@@ -141,7 +141,7 @@ END_TEST
 
 /* Flesh that falls so fast that it is pressed through itself comes back, though its weight might strain it by
  * as much energy: in flight it stayed crushed for seconds. */
-START_TEST(what_a_fall_crushes_recovers)
+START_TEST(bodies_crushed_by_a_fall_recover)
 {
   static const double heights_m[] = {1, 3, 8, 15};
   scene s = scene_begin();
@@ -232,10 +232,10 @@ int main(void) {
   TCase *c = tcase_create("jump");
   tcase_set_timeout(c, 120);
   tcase_add_loop_test(
-      c, a_jump_of_cells_leaves_nothing_crushed, 0, HARNESS_FEW((int)(sizeof jumps / sizeof *jumps), 3));
+      c, a_jump_by_cells_leaves_nothing_crushed, 0, HARNESS_FEW((int)(sizeof jumps / sizeof *jumps), 3));
   tcase_add_test(c, a_bent_bar_of_few_vertices_is_not_put_back);
-  tcase_add_test(c, what_is_crushed_is_reported);
-  tcase_add_loop_test(c, what_a_fall_crushes_recovers, 0, 4);
+  tcase_add_test(c, crushed_bodies_are_reported);
+  tcase_add_loop_test(c, bodies_crushed_by_a_fall_recover, 0, 4);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

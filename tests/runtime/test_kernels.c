@@ -59,7 +59,7 @@ static uint64_t hash_after(sbr_instructions instructions, bool pinned, sbf_schem
 
 enum { WIDTHS = SBR_INSTRUCTIONS_WASM_SIMD128 };
 
-START_TEST(every_width_gives_the_same_bits)
+START_TEST(every_lane_width_gives_the_same_bits)
 {
   static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
       SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT};
@@ -77,7 +77,7 @@ START_TEST(every_width_gives_the_same_bits)
 }
 END_TEST
 
-START_TEST(a_model_takes_the_widest)
+START_TEST(a_model_uses_the_widest_lanes)
 {
   scene s = make_scene();
   scene_start(&s);
@@ -115,8 +115,8 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("kernels");
   TCase *c = tcase_create("kernels");
-  tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 10);
-  tcase_add_test(c, a_model_takes_the_widest);
+  tcase_add_loop_test(c, every_lane_width_gives_the_same_bits, 0, 10);
+  tcase_add_test(c, a_model_uses_the_widest_lanes);
   tcase_add_test(c, instructions_of_other_processors_are_refused);
   suite_add_tcase(s, c);
   return harness_run(s);

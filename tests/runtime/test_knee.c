@@ -38,7 +38,7 @@ static float snaps_straight(int tick) {
   return angle < 3.14159265f ? angle : 3.14159265f;
 }
 
-START_TEST(a_knee_catches_up_without_a_jerk_and_stays)
+START_TEST(a_knee_reaches_its_target_smoothly_and_stays)
 {
   sbri_foot foot = at_rest(1);
   ck_assert_float_le(follow(&foot, jumps, 60), MAX);
@@ -47,7 +47,7 @@ START_TEST(a_knee_catches_up_without_a_jerk_and_stays)
 }
 END_TEST
 
-START_TEST(a_knee_that_can_go_along_does_so_exactly)
+START_TEST(a_knee_within_reach_follows_exactly)
 {
   sbri_foot foot = at_rest(swings(0));
   (void)follow(&foot, swings, 20);
@@ -79,7 +79,7 @@ START_TEST(angle_and_distance_are_of_one_triangle)
 }
 END_TEST
 
-START_TEST(a_leg_that_stands_stops_before_it_is_straight)
+START_TEST(a_planted_leg_stops_before_it_is_straight)
 {
   const sbri_leg leg = {.length.upper = 0.3f, .length.lower = 0.2f};
   const sbri_gait_input input = {.tick_s = TICK_S, .scale = 1};
@@ -120,7 +120,7 @@ static void begin_over_kerbs(gait_stage *stage, float speed) {
   stage->input.forward = speed;
 }
 
-START_TEST(knees_in_the_air_turn_evenly_over_kerbs)
+START_TEST(knees_in_the_air_rotate_evenly_over_kerbs)
 {
   uint32_t pinned = 0;
   for (int s = 0; s < SPEEDS; s++) {
@@ -146,7 +146,7 @@ START_TEST(knees_in_the_air_turn_evenly_over_kerbs)
 }
 END_TEST
 
-START_TEST(the_same_pose_comes_of_a_state_that_is_not_moved_on)
+START_TEST(posing_a_state_twice_gives_the_same_pose)
 {
   uint32_t pinned = 0;
   for (int s = 0; s < SPEEDS; s++) {
@@ -169,13 +169,13 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("knee");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_knee_catches_up_without_a_jerk_and_stays);
-  tcase_add_test(tests, a_knee_that_can_go_along_does_so_exactly);
+  tcase_add_test(tests, a_knee_reaches_its_target_smoothly_and_stays);
+  tcase_add_test(tests, a_knee_within_reach_follows_exactly);
   tcase_add_test(tests, a_knee_comes_to_rest_where_the_leg_is_straight);
   tcase_add_test(tests, angle_and_distance_are_of_one_triangle);
-  tcase_add_test(tests, a_leg_that_stands_stops_before_it_is_straight);
-  tcase_add_test(tests, knees_in_the_air_turn_evenly_over_kerbs);
-  tcase_add_test(tests, the_same_pose_comes_of_a_state_that_is_not_moved_on);
+  tcase_add_test(tests, a_planted_leg_stops_before_it_is_straight);
+  tcase_add_test(tests, knees_in_the_air_rotate_evenly_over_kerbs);
+  tcase_add_test(tests, posing_a_state_twice_gives_the_same_pose);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -16,7 +16,7 @@ static scene box_with_level(uint32_t *corners_used) {
   scene_section(&s, 0, middle, size, 3);
   scene_skin(&s, 0);
   s.character_definition.position.y = 0;
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   s.world_definition.ground = sbr_ground_flat(0);
   sbf_render_mesh *mesh = (sbf_render_mesh *)(uintptr_t)s.asset->render_meshes.at;
   uint32_t point_of[8];
@@ -119,7 +119,7 @@ START_TEST(skinned_as_the_full_mesh_is)
 END_TEST
 
 /* A level's corners have the normals and coordinates of those they name: hard edges, and tangents. */
-START_TEST(corners_look_as_named)
+START_TEST(level_corners_have_normals_and_uvs_of_the_mesh)
 {
   uint32_t point_of[8];
   scene s = box_with_level(point_of);
@@ -175,7 +175,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("level_skin");
   tcase_add_test(c, carried_as_the_full_mesh_is);
   tcase_add_test(c, skinned_as_the_full_mesh_is);
-  tcase_add_test(c, corners_look_as_named);
+  tcase_add_test(c, level_corners_have_normals_and_uvs_of_the_mesh);
   suite_add_tcase(s, c);
   return s;
 }

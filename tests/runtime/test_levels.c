@@ -37,7 +37,7 @@ START_TEST(a_level_fails_above_an_error_of_a_quarter_of_its_body)
 }
 END_TEST
 
-START_TEST(what_is_not_stepped_is_no_detail_level_however_near)
+START_TEST(levels_that_cannot_be_stepped_are_no_detail_levels)
 {
   sbf_level level = of_model(SBF_ELASTIC_MODEL_SPRINGS);
   level.simulation.error = 0.01f;
@@ -52,7 +52,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, springs_and_solids_are_stepped_once_they_are_loaded);
   tcase_add_test(tests, a_level_fails_above_an_error_of_a_quarter_of_its_body);
-  tcase_add_test(tests, what_is_not_stepped_is_no_detail_level_however_near);
+  tcase_add_test(tests, levels_that_cannot_be_stepped_are_no_detail_levels);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

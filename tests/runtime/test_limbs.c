@@ -55,7 +55,7 @@ START_TEST(a_leg_is_kept_within_its_limits)
 }
 END_TEST
 
-START_TEST(turning_about_a_foot_leaves_it_where_it_is)
+START_TEST(rotating_about_a_foot_keeps_its_position)
 {
   gait_stage s;
   gait_stage_begin(&s, quadruped_asset());
@@ -84,7 +84,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_limb_reaches_while_the_others_stand);
   tcase_add_test(tests, a_leg_is_kept_within_its_limits);
-  tcase_add_test(tests, turning_about_a_foot_leaves_it_where_it_is);
+  tcase_add_test(tests, rotating_about_a_foot_keeps_its_position);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -32,7 +32,7 @@ static float from_hip(sbf_vec3 ankle, float scale) {
   return sbri_length(sbri_sub(ankle, sbri_vec3(0, scale, 0)));
 }
 
-START_TEST(it_stands_upright_as_at_rest)
+START_TEST(the_foot_stands_upright_as_at_rest)
 {
   sbri_leg leg = long_legged();
   sbri_foot foot = standing();
@@ -43,7 +43,7 @@ START_TEST(it_stands_upright_as_at_rest)
 }
 END_TEST
 
-START_TEST(it_takes_half_of_what_the_leg_would_stretch_or_bend)
+START_TEST(the_foot_takes_half_of_the_leg_s_stretch_or_bend)
 {
   sbri_leg leg = long_legged();
   for (float scale = 1; scale < 4; scale += 2)
@@ -61,7 +61,7 @@ START_TEST(it_takes_half_of_what_the_leg_would_stretch_or_bend)
 }
 END_TEST
 
-START_TEST(beyond_its_lean_the_knee_straightens_so_that_it_stands_where_it_stands)
+START_TEST(beyond_its_lean_limit_the_foot_stays_and_the_knee_straightens)
 {
   sbri_leg leg = long_legged();
   sbri_foot foot = standing();
@@ -74,7 +74,7 @@ START_TEST(beyond_its_lean_the_knee_straightens_so_that_it_stands_where_it_stand
 }
 END_TEST
 
-START_TEST(a_knee_that_stands_turns_evenly_and_the_foot_leans_for_it)
+START_TEST(a_planted_knee_rotates_evenly_and_the_foot_leans)
 {
   sbri_leg leg = long_legged();
   sbri_foot foot = standing();
@@ -98,10 +98,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("long_foot");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, it_stands_upright_as_at_rest);
-  tcase_add_test(tests, it_takes_half_of_what_the_leg_would_stretch_or_bend);
-  tcase_add_test(tests, beyond_its_lean_the_knee_straightens_so_that_it_stands_where_it_stands);
-  tcase_add_test(tests, a_knee_that_stands_turns_evenly_and_the_foot_leans_for_it);
+  tcase_add_test(tests, the_foot_stands_upright_as_at_rest);
+  tcase_add_test(tests, the_foot_takes_half_of_the_leg_s_stretch_or_bend);
+  tcase_add_test(tests, beyond_its_lean_limit_the_foot_stays_and_the_knee_straightens);
+  tcase_add_test(tests, a_planted_knee_rotates_evenly_and_the_foot_leans);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

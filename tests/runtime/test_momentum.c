@@ -80,11 +80,11 @@ static void grid_surface(scene *s, const sbf_level *level, uint32_t from) {
 typedef struct kind {
   const char *name;
   elastic model;
-  bool surface, alone; /* alone: one box holds it, which bears it */
+  bool surface, alone; /* alone: pinned to one box, which carries it */
   bool hung;           /* the first box holds nothing of the surface */
   sbf_pressure_mode pressure;
   float pa, limit, yield, tear, goal, damping, times;
-  float keeps_m; /* the surface meets itself, at that thickness or at 0.9 of what it is apart at rest */
+  float keeps_m; /* the surface collides with itself, at that thickness or at 0.9 of its separation at rest */
   float box_kg;  /* 0: BOX_KG */
   sbf_scheme scheme;
   double linear, angular; /* that may be lost or gained, as shares; 0: LINEAR and ANGULAR */
@@ -236,7 +236,7 @@ static float hit(scene *s, const kind *is) {
   return times;
 }
 
-START_TEST(what_points_gain_boxes_lose)
+START_TEST(points_and_boxes_exchange_equal_momentum)
 {
   const kind *is = &kinds[_i];
   scene s = dumbbell(is, SBR_INSTRUCTIONS_AUTOMATIC);
@@ -261,7 +261,7 @@ START_TEST(what_points_gain_boxes_lose)
 }
 END_TEST
 
-START_TEST(every_width_gives_the_same_bits)
+START_TEST(every_lane_width_gives_the_same_bits)
 {
   uint64_t hash = 0;
   for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++) {
@@ -281,8 +281,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("momentum");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, what_points_gain_boxes_lose, 0, sizeof kinds / sizeof *kinds);
-  tcase_add_loop_test(tests, every_width_gives_the_same_bits, 0, sizeof kinds / sizeof *kinds);
+  tcase_add_loop_test(tests, points_and_boxes_exchange_equal_momentum, 0, sizeof kinds / sizeof *kinds);
+  tcase_add_loop_test(tests, every_lane_width_gives_the_same_bits, 0, sizeof kinds / sizeof *kinds);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -78,7 +78,7 @@ START_TEST(a_wave_travels_at_its_frequency_times_its_length)
   }
   double lag = atan2(sums[1][1], sums[1][0]) - atan2(sums[0][1], sums[0][0]);
   while (lag < 0) lag += 2 * PI;
-  double between = (double)LENGTH * 0.5; /* from the middle of the one bone to that of the other */
+  double between = (double)LENGTH * 0.5; /* between the middles of two bones */
   ck_assert_double_eq_tol(2 * PI * f * between / lag, f * 0.8 * (double)LENGTH, 0.01 * f);
   double height = 2 * hypot(sums[0][0], sums[0][1]) / ticks; /* 2 pi a / lambda */
   ck_assert_double_eq_tol(height, 2 * PI * 0.05 / 0.8, 0.01);
@@ -98,7 +98,7 @@ START_TEST(a_wave_keeps_its_frequency_within_bounds)
 }
 END_TEST
 
-START_TEST(it_banks_by_speed_times_turn_over_gravity)
+START_TEST(it_banks_by_speed_times_angular_velocity_over_gravity)
 {
   sbf_gait *gait;
   sbf_asset *a = chain(SBF_GAIT_KIND_FLY, &gait, 0);
@@ -118,7 +118,7 @@ START_TEST(it_banks_by_speed_times_turn_over_gravity)
 }
 END_TEST
 
-START_TEST(what_is_heavier_than_its_medium_sinks_and_stops_at_the_ground)
+START_TEST(heavy_swimmers_sink_to_the_ground)
 {
   for (int k = 0; k < 3; k++) {
     float buoyancy = 0.8f + 0.2f * (float)k;
@@ -213,7 +213,7 @@ static double stairs(const sbr_ground *ground, double x, double z, sbf_vec3 *nor
 }
 
 /* Straight up stairs and in a circle, up, along and down: its joints keep their distances and their speed. */
-START_TEST(a_snake_goes_over_edges_without_jumps)
+START_TEST(a_snake_crosses_edges_without_jumps)
 {
   static const double STEP = 0.1;
   for (int turns = 0; turns < 2; turns++) {
@@ -302,7 +302,7 @@ static double separation(double a, double b) {
   return fabs(remainder(a - b, 2 * PI));
 }
 
-START_TEST(wheels_turn_by_the_distance_over_their_radius)
+START_TEST(wheels_rotate_by_the_distance_over_their_radius)
 {
   sbf_gait *gait;
   gait_stage s;
@@ -327,7 +327,7 @@ START_TEST(wheels_turn_by_the_distance_over_their_radius)
 }
 END_TEST
 
-START_TEST(links_run_to_the_place_of_the_next)
+START_TEST(links_end_at_the_next_link)
 {
   sbf_gait *gait;
   gait_stage s;
@@ -344,7 +344,7 @@ START_TEST(links_run_to_the_place_of_the_next)
 }
 END_TEST
 
-START_TEST(a_car_turns_about_its_fixed_axle_no_tighter_than_it_steers)
+START_TEST(a_car_rotates_about_its_fixed_axle_within_its_steering_angle)
 {
   sbf_gait *gait;
   gait_stage s;
@@ -415,7 +415,7 @@ START_TEST(a_crawler_lifts_but_never_sinks)
 }
 END_TEST
 
-START_TEST(each_kind_goes_as_far_as_it_is_driven)
+START_TEST(each_kind_travels_the_driven_distance)
 {
   static const sbf_gait_kind kinds[] = {SBF_GAIT_KIND_SWIM, SBF_GAIT_KIND_FLY, SBF_GAIT_KIND_SLITHER,
       SBF_GAIT_KIND_CRAWL, SBF_GAIT_KIND_ROLL, SBF_GAIT_KIND_NONE};
@@ -523,7 +523,7 @@ START_TEST(it_stands_in_its_rest_pose)
 }
 END_TEST
 
-START_TEST(a_world_restores_it_and_ignores_numbers_that_are_none)
+START_TEST(a_world_restores_it_and_ignores_invalid_numbers)
 {
   sbf_gait *gait;
   sbf_asset *a = chain(SBF_GAIT_KIND_SWIM, &gait, 0);
@@ -570,22 +570,22 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_wave_travels_at_its_frequency_times_its_length);
   tcase_add_test(tests, a_wave_keeps_its_frequency_within_bounds);
-  tcase_add_test(tests, it_banks_by_speed_times_turn_over_gravity);
-  tcase_add_test(tests, what_is_heavier_than_its_medium_sinks_and_stops_at_the_ground);
+  tcase_add_test(tests, it_banks_by_speed_times_angular_velocity_over_gravity);
+  tcase_add_test(tests, heavy_swimmers_sink_to_the_ground);
   tcase_add_test(tests, a_swimmer_stays_between_ground_and_surface);
   tcase_add_test(tests, a_snake_follows_the_path_of_its_nose);
-  tcase_add_test(tests, a_snake_goes_over_edges_without_jumps);
+  tcase_add_test(tests, a_snake_crosses_edges_without_jumps);
   tcase_add_test(tests, the_serpenoid_curve_is_the_integral_of_its_heading);
-  tcase_add_test(tests, wheels_turn_by_the_distance_over_their_radius);
-  tcase_add_test(tests, links_run_to_the_place_of_the_next);
-  tcase_add_test(tests, a_car_turns_about_its_fixed_axle_no_tighter_than_it_steers);
+  tcase_add_test(tests, wheels_rotate_by_the_distance_over_their_radius);
+  tcase_add_test(tests, links_end_at_the_next_link);
+  tcase_add_test(tests, a_car_rotates_about_its_fixed_axle_within_its_steering_angle);
   tcase_add_test(tests, a_hop_is_as_high_as_a_step);
   tcase_add_test(tests, a_crawler_lifts_but_never_sinks);
-  tcase_add_test(tests, each_kind_goes_as_far_as_it_is_driven);
+  tcase_add_test(tests, each_kind_travels_the_driven_distance);
   tcase_add_test(tests, its_state_is_all_of_it_and_moves_with_the_origin);
   tcase_add_test(tests, fins_beat_steer_and_trail);
   tcase_add_test(tests, it_stands_in_its_rest_pose);
-  tcase_add_test(tests, a_world_restores_it_and_ignores_numbers_that_are_none);
+  tcase_add_test(tests, a_world_restores_it_and_ignores_invalid_numbers);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -5,7 +5,7 @@
 
 static const float PI = 3.14159265f;
 
-START_TEST(angles_are_brought_into_one_turn)
+START_TEST(angles_are_wrapped_into_one_rotation)
 {
   for (int turns = -3; turns <= 3; turns++)
     for (float angle = -3.1f; angle < 3.14f; angle += 0.31f)
@@ -15,7 +15,7 @@ START_TEST(angles_are_brought_into_one_turn)
 }
 END_TEST
 
-START_TEST(a_quarter_turn_leads_from_ahead_to_the_left)
+START_TEST(a_quarter_rotation_points_from_ahead_to_the_left)
 {
   sbf_vec3 left = sbri_rotate_yaw(sbri_vec3(0, 0.5f, 2), 0.5f * PI);
   ck_assert_float_le(sbri_length(sbri_sub(left, sbri_vec3(2, 0.5f, 0))), 1e-6f);
@@ -45,17 +45,17 @@ START_TEST(the_ground_is_found_relative_to_the_origin)
 }
 END_TEST
 
-START_TEST(flat_distances_know_no_height)
+START_TEST(flat_distances_ignore_height)
 { ck_assert_float_eq(sbri_flat_distance(sbri_vec3(1, -9, 2), sbri_vec3(4, 30, -2)), 5); }
 END_TEST
 
 int main(void) {
   Suite *suite = suite_create("over_ground");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, angles_are_brought_into_one_turn);
-  tcase_add_test(tests, a_quarter_turn_leads_from_ahead_to_the_left);
+  tcase_add_test(tests, angles_are_wrapped_into_one_rotation);
+  tcase_add_test(tests, a_quarter_rotation_points_from_ahead_to_the_left);
   tcase_add_test(tests, the_ground_is_found_relative_to_the_origin);
-  tcase_add_test(tests, flat_distances_know_no_height);
+  tcase_add_test(tests, flat_distances_ignore_height);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -29,7 +29,7 @@ START_TEST(weights_stay_within_the_sets_bounds)
 END_TEST
 
 /* One point of 2 kg, pulled by a pin of weight 0.5 of a spring of 100 N/m. */
-START_TEST(a_goal_pulls_as_a_spring_of_no_length)
+START_TEST(a_goal_acts_as_a_zero_length_spring)
 {
   scene s = scene_begin();
   const sbf_vec3 position = {1, 2, 3};
@@ -49,7 +49,7 @@ START_TEST(a_goal_pulls_as_a_spring_of_no_length)
 }
 END_TEST
 
-START_TEST(a_goal_without_stiffness_takes_the_bodys)
+START_TEST(a_goal_without_stiffness_uses_that_of_the_body)
 {
   scene s = scene_begin();
   const sbf_vec3 position = {0, 0, 0};
@@ -68,7 +68,7 @@ START_TEST(a_goal_without_stiffness_takes_the_bodys)
 }
 END_TEST
 
-START_TEST(offsets_place_points_in_their_bone)
+START_TEST(offsets_position_points_in_their_bone)
 {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 1, 0}); /* its +Y runs along +Z */
@@ -90,7 +90,7 @@ START_TEST(offsets_place_points_in_their_bone)
 }
 END_TEST
 
-START_TEST(the_first_of_several_pins_holds)
+START_TEST(the_first_of_several_pins_is_used)
 {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 1, 0});
@@ -109,7 +109,7 @@ START_TEST(the_first_of_several_pins_holds)
 }
 END_TEST
 
-START_TEST(the_world_holds_where_the_character_was_put)
+START_TEST(pins_without_a_bone_fix_points_at_the_initial_position)
 {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 1, 0});
@@ -134,7 +134,7 @@ START_TEST(the_world_holds_where_the_character_was_put)
 END_TEST
 
 /* A row of points between two bones' ends: guides go from all of one to all of the other. */
-START_TEST(guides_blend_between_the_bones_that_hold)
+START_TEST(drivers_blend_between_the_pinning_bones)
 {
   scene s = scene_begin();
   sbf_bone *bones = sbf_asset_allocate(s.asset, 2, sizeof *bones);
@@ -172,12 +172,12 @@ static Suite *suite(void) {
   Suite *s = suite_create("pins");
   TCase *c = tcase_create("pins");
   tcase_add_test(c, weights_stay_within_the_sets_bounds);
-  tcase_add_test(c, a_goal_pulls_as_a_spring_of_no_length);
-  tcase_add_test(c, a_goal_without_stiffness_takes_the_bodys);
-  tcase_add_test(c, offsets_place_points_in_their_bone);
-  tcase_add_test(c, the_first_of_several_pins_holds);
-  tcase_add_test(c, the_world_holds_where_the_character_was_put);
-  tcase_add_test(c, guides_blend_between_the_bones_that_hold);
+  tcase_add_test(c, a_goal_acts_as_a_zero_length_spring);
+  tcase_add_test(c, a_goal_without_stiffness_uses_that_of_the_body);
+  tcase_add_test(c, offsets_position_points_in_their_bone);
+  tcase_add_test(c, the_first_of_several_pins_is_used);
+  tcase_add_test(c, pins_without_a_bone_fix_points_at_the_initial_position);
+  tcase_add_test(c, drivers_blend_between_the_pinning_bones);
   suite_add_tcase(s, c);
   return s;
 }

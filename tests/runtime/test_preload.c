@@ -28,7 +28,7 @@ static double moved(scene *s) {
   return worst;
 }
 
-START_TEST(a_body_that_is_to_bear_its_weight_does)
+START_TEST(preload_supports_the_weight)
 {
   scene sagging = section(false), bearing = section(true);
   scene_start(&sagging);
@@ -41,7 +41,7 @@ START_TEST(a_body_that_is_to_bear_its_weight_does)
 }
 END_TEST
 
-START_TEST(it_bears_the_gravity_it_is_made_for)
+START_TEST(preload_balances_the_stated_gravity)
 {
   scene s = section(true);
   s.model_options.has_gravity = s.world_definition.has_gravity = true;
@@ -58,7 +58,7 @@ START_TEST(it_bears_the_gravity_it_is_made_for)
 }
 END_TEST
 
-START_TEST(goals_bear_it_too)
+START_TEST(goals_support_the_weight)
 {
   scene s = scene_begin();
   scene_body(&s, 0)->attributes.sag_free = true;
@@ -78,7 +78,7 @@ START_TEST(goals_bear_it_too)
 }
 END_TEST
 
-START_TEST(stated_rest_lengths_are_left_alone)
+START_TEST(stated_rest_lengths_are_unchanged)
 {
   scene s = section(true);
   const sbf_spring_set_list *sets = &s.asset->soft_bodies.at[0].levels.at[0].springs;
@@ -95,10 +95,10 @@ START_TEST(stated_rest_lengths_are_left_alone)
 }
 END_TEST
 
-START_TEST(what_cannot_bear_it_stays_as_it_is)
+START_TEST(bodies_that_cannot_support_it_are_unchanged)
 {
   scene s = section(true);
-  s.model_options.free = true; /* nothing holds it */
+  s.model_options.free = true; /* no pins */
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
   for (uint32_t i = 0; i < island->springs.count; i++) {
@@ -114,11 +114,11 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("preload");
   TCase *c = tcase_create("preload");
-  tcase_add_test(c, a_body_that_is_to_bear_its_weight_does);
-  tcase_add_test(c, it_bears_the_gravity_it_is_made_for);
-  tcase_add_test(c, goals_bear_it_too);
-  tcase_add_test(c, stated_rest_lengths_are_left_alone);
-  tcase_add_test(c, what_cannot_bear_it_stays_as_it_is);
+  tcase_add_test(c, preload_supports_the_weight);
+  tcase_add_test(c, preload_balances_the_stated_gravity);
+  tcase_add_test(c, goals_support_the_weight);
+  tcase_add_test(c, stated_rest_lengths_are_unchanged);
+  tcase_add_test(c, bodies_that_cannot_support_it_are_unchanged);
   suite_add_tcase(s, c);
   return s;
 }

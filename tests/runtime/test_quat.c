@@ -12,7 +12,7 @@ static void expect(sbf_vec3 a, sbf_vec3 b) {
   ck_assert_float_le(sbri_length(sbri_sub(a, b)), 2e-6f);
 }
 
-START_TEST(rotations_turn_the_right_way)
+START_TEST(rotations_follow_the_right_hand_rule)
 {
   sbf_quat quarter = turn(sbri_vec3(0, 1, 0), 1.5707963f), tip = turn(sbri_vec3(1, 0, 0), 1.5707963f);
   expect(sbri_rotate(quarter, sbri_vec3(0, 0, 1)), sbri_vec3(1, 0, 0));
@@ -27,7 +27,7 @@ START_TEST(the_identity_changes_no_bit)
 }
 END_TEST
 
-START_TEST(between_brings_one_to_the_other)
+START_TEST(between_rotates_one_vector_to_the_other)
 {
   const sbf_vec3 from[] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
   const sbf_vec3 to[] = {{0, -1, 0}, {0.6f, 0, 0.8f}, {-1, 0, 0}, {0, 1, 0}};
@@ -35,7 +35,7 @@ START_TEST(between_brings_one_to_the_other)
 }
 END_TEST
 
-START_TEST(blending_takes_the_shorter_way)
+START_TEST(blending_follows_the_shorter_path)
 {
   sbf_quat a = turn(sbri_vec3(0, 0, 1), 0.4f), b = turn(sbri_vec3(0, 0, 1), 0.6f);
   sbf_quat other = {-b.x, -b.y, -b.z, -b.w}, middle = sbri_quat_blend(a, other, 0.5f);
@@ -62,10 +62,10 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("quat");
   TCase *c = tcase_create("quat");
-  tcase_add_test(c, rotations_turn_the_right_way);
+  tcase_add_test(c, rotations_follow_the_right_hand_rule);
   tcase_add_test(c, the_identity_changes_no_bit);
-  tcase_add_test(c, between_brings_one_to_the_other);
-  tcase_add_test(c, blending_takes_the_shorter_way);
+  tcase_add_test(c, between_rotates_one_vector_to_the_other);
+  tcase_add_test(c, blending_follows_the_shorter_path);
   tcase_add_test(c, axes_make_a_rotation);
   suite_add_tcase(s, c);
   return s;

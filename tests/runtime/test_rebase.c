@@ -9,7 +9,7 @@ static const float scales[] = {1, 0.01f, 0.3f}, bounds[] = {2e-4f, 2e-3f, 6e-4f}
 
 /* A loose bar that falls sideways for a kilometre, whatever its size: its middle is where it should be, and
  * no digits that it lost on the way strain it. */
-START_TEST(what_flies_far_keeps_its_shape)
+START_TEST(bodies_that_fly_far_keep_their_shape)
 {
   scene s = scene_begin();
   lattice_box box =
@@ -44,7 +44,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rebase");
   TCase *c = tcase_create("rebase");
-  tcase_add_loop_test(c, what_flies_far_keeps_its_shape, 0, sizeof scales / sizeof *scales);
+  tcase_add_loop_test(c, bodies_that_fly_far_keep_their_shape, 0, sizeof scales / sizeof *scales);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -19,13 +19,13 @@ static scene make(sbr_instructions instructions) {
 }
 
 static void push(const scene *s, int which) {
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab hold = sbr_default_vertex_grab();
   hold.target = (sbr_double3){12, 901, -3};
   const sbf_vec3 one = {0.1f, 0.2f, -0.3f};
   if (which == 0) (void)sbr_character_set_soft_velocity(s->world, s->character, 0, one, one, NULL);
   if (which == 1) (void)sbr_character_apply_soft_impulse(s->world, s->character, 0, 3, one, NULL);
   if (which == 2) (void)sbr_character_apply_soft_force(s->world, s->character, 0, 5, one, 0.1f, NULL);
-  if (which == 3) (void)sbr_character_hold_vertex(s->world, s->character, 0, 2, &hold, NULL);
+  if (which == 3) (void)sbr_character_grab_vertex(s->world, s->character, 0, 2, &hold, NULL);
   if (which == 4) (void)sbr_character_release_vertex(s->world, s->character, 0, 2);
 }
 
@@ -59,7 +59,7 @@ static uint64_t record(tape *t) {
   return hash;
 }
 
-START_TEST(what_is_played_ends_in_the_same_state)
+START_TEST(replays_end_in_the_same_state)
 {
   static tape t, again;
   uint64_t hash = record(&t);
@@ -76,7 +76,7 @@ START_TEST(what_is_played_ends_in_the_same_state)
   ck_assert_uint_ge(replay.checks, 3);
   ck_assert(!replay.differs);
   ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
-  /* What is played can be recorded, and is the same. */
+  /* A replay can be recorded, with an equal result. */
   sbr_world_set_recording(s.world, NULL);
   ck_assert_uint_eq(again.size, t.size);
   ck_assert_mem_eq(again.bytes, t.bytes, t.size);
@@ -161,7 +161,7 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("record");
   TCase *c = tcase_create("record");
-  tcase_add_loop_test(c, what_is_played_ends_in_the_same_state, 0, 2);
+  tcase_add_loop_test(c, replays_end_in_the_same_state, 0, 2);
   tcase_add_test(c, another_world_is_reported);
   tcase_add_loop_test(c, damaged_recordings_do_no_harm, 0, 2);
   tcase_add_test(c, characters_created_meanwhile_are_reported);

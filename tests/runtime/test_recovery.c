@@ -46,7 +46,7 @@ static sbr_body_health health_of(const scene *s) {
 
 /* It used to stop where it was. A corner that is torn off as far as numbers go is an explosion whatever the
  * steps. */
-START_TEST(what_is_put_back_keeps_its_momentum_and_no_more)
+START_TEST(a_reset_keeps_the_momentum_exactly)
 {
   scene s = begin_cube(1000, SBF_SCHEME_SYMPLECTIC, 4);
   s.world_definition.has_gravity = true;
@@ -73,7 +73,7 @@ START_TEST(what_is_put_back_keeps_its_momentum_and_no_more)
 END_TEST
 
 /* It used to hang in the air for good. Now it falls as a rigid body and lies where it lands. */
-START_TEST(what_no_scheme_can_step_moves_as_a_rigid_body)
+START_TEST(bodies_that_no_scheme_can_step_move_rigidly)
 {
   scene s = begin_cube(1, SBF_SCHEME_SYMPLECTIC, 4);
   s.world_definition.ground = sbr_ground_flat(0);
@@ -127,8 +127,8 @@ START_TEST(a_body_with_slivers_falls)
 }
 END_TEST
 
-/* In steps that are enough nothing of this is seen, and the state is that of the scheme alone. */
-START_TEST(what_is_stepped_well_is_left_alone)
+/* With enough steps no recovery acts, and the state is the same as without recovery. */
+START_TEST(stable_bodies_are_not_reset)
 {
   scene s = begin_cube(1, SBF_SCHEME_AUTOMATIC, 0);
   s.world_definition.ground = sbr_ground_flat(0);
@@ -140,8 +140,8 @@ START_TEST(what_is_stepped_well_is_left_alone)
 }
 END_TEST
 
-/* Its rest shape would be in the ground: what strains it is what holds it. */
-START_TEST(what_its_bone_presses_into_the_ground_is_left_alone)
+/* Its rest shape would be in the ground: its pins strain it. */
+START_TEST(bodies_pressed_into_the_ground_by_their_bone_are_not_reset)
 {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 0, 0});
@@ -149,7 +149,7 @@ START_TEST(what_its_bone_presses_into_the_ground_is_left_alone)
   scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position = (sbr_double3){0, 0, 0};
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   scene_start(&s);
   scene_ticks(&s, 180);
   ck_assert(health_of(&s).finite);
@@ -163,11 +163,11 @@ int main(void) {
   Suite *suite = suite_create("recovery");
   TCase *c = tcase_create("recovery");
   tcase_set_timeout(c, 60);
-  tcase_add_test(c, what_is_put_back_keeps_its_momentum_and_no_more);
-  tcase_add_test(c, what_no_scheme_can_step_moves_as_a_rigid_body);
+  tcase_add_test(c, a_reset_keeps_the_momentum_exactly);
+  tcase_add_test(c, bodies_that_no_scheme_can_step_move_rigidly);
   tcase_add_loop_test(c, a_body_with_slivers_falls, 0, HARNESS_FEW(10, 2));
-  tcase_add_test(c, what_is_stepped_well_is_left_alone);
-  tcase_add_test(c, what_its_bone_presses_into_the_ground_is_left_alone);
+  tcase_add_test(c, stable_bodies_are_not_reset);
+  tcase_add_test(c, bodies_pressed_into_the_ground_by_their_bone_are_not_reset);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

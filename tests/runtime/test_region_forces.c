@@ -76,7 +76,7 @@ START_TEST(momentum_angular_momentum_and_energy_are_conserved)
 END_TEST
 
 /* One region around all, breathing: every point swings about its place with w. */
-START_TEST(one_region_swings_with_its_own_frequency)
+START_TEST(one_region_oscillates_at_its_own_frequency)
 {
   const float w = 40;
   scene s = scene_begin();
@@ -138,7 +138,7 @@ START_TEST(a_hanging_bar_has_the_stiffness_of_its_modulus)
 }
 END_TEST
 
-START_TEST(flat_and_mirrored_starts_come_back)
+START_TEST(flat_and_mirrored_starts_recover)
 {
   scene s = make_block(60);
   scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
@@ -158,7 +158,7 @@ START_TEST(flat_and_mirrored_starts_come_back)
 }
 END_TEST
 
-/* Two of the lowest mode's periods lose what its damping ratio says; the frequency is that of the model. */
+/* Two periods of the lowest mode decay by its damping ratio; the frequency is the model's. */
 START_TEST(the_lowest_mode_is_damped_by_the_ratio)
 {
   scene s = make_block(60);
@@ -190,7 +190,7 @@ START_TEST(the_lowest_mode_is_damped_by_the_ratio)
 END_TEST
 
 /* Damping of their own takes energy, and neither brakes a turn nor a flight. */
-START_TEST(damping_of_their_own_leaves_rigid_motion_alone)
+START_TEST(damping_of_regions_does_not_slow_rigid_motion)
 {
   scene s = make_block(60);
   scene_body(&s, 0)->attributes.stiffness_damping = 0.01f;
@@ -236,7 +236,7 @@ static scene make_walker(sbf_scheme scheme, sbr_instructions instructions) {
   return s;
 }
 
-START_TEST(every_width_and_a_snapshot_give_the_same_bits)
+START_TEST(every_lane_width_and_a_snapshot_give_the_same_bits)
 {
   static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_HEUN};
   uint64_t hash = 0;
@@ -280,12 +280,12 @@ int main(void) {
   Suite *s = suite_create("region forces");
   TCase *c = tcase_create("region forces");
   tcase_add_test(c, momentum_angular_momentum_and_energy_are_conserved);
-  tcase_add_test(c, one_region_swings_with_its_own_frequency);
+  tcase_add_test(c, one_region_oscillates_at_its_own_frequency);
   tcase_add_test(c, a_hanging_bar_has_the_stiffness_of_its_modulus);
-  tcase_add_loop_test(c, flat_and_mirrored_starts_come_back, 0, 2);
+  tcase_add_loop_test(c, flat_and_mirrored_starts_recover, 0, 2);
   tcase_add_test(c, the_lowest_mode_is_damped_by_the_ratio);
-  tcase_add_test(c, damping_of_their_own_leaves_rigid_motion_alone);
-  tcase_add_loop_test(c, every_width_and_a_snapshot_give_the_same_bits, 0, 2);
+  tcase_add_test(c, damping_of_regions_does_not_slow_rigid_motion);
+  tcase_add_loop_test(c, every_lane_width_and_a_snapshot_give_the_same_bits, 0, 2);
   tcase_add_test(c, position_based_steps_refuse_regions);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -39,7 +39,7 @@ static void make_body(scene *s, uint32_t index, const reference_section *from) {
   uint32_t *pinned = calloc(pinned_count, sizeof *pinned);
   for (uint32_t i = 0; i < pinned_count; i++) pinned[i] = from->surface_count + i;
   scene_pin(s, level, 0, pinned, pinned_count);
-  /* Sets in another order than that of the visits, which goes by kind. */
+  /* Sets in another order than the visits, which are ordered by kind. */
   const sbf_spring_kind kinds[] = {
       SBF_SPRING_KIND_SHEAR, SBF_SPRING_KIND_STRUCTURAL, SBF_SPRING_KIND_INTERNAL};
   const reference_pair *pairs[] = {from->diagonals, from->edges, from->inner};
@@ -66,7 +66,7 @@ static float compare(const char *obj, float gravity, float stiffness, bool groun
   s.asset->relaxation.stiffness = stiffness;
   s.asset->relaxation.gravity = gravity;
   s.model_options.scheme = SBF_SCHEME_RELAXATION;
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   s.character_definition.position.y = ground ? 0 : 1000;
   s.world_definition.ground = sbr_ground_flat(ground ? 0 : -1000);
   scene_start(&s);
@@ -118,7 +118,7 @@ static const char *scrap =
     "g Scrap_1\nv -1 0.2 0\nv 0 0.5 0\nv 0 0.5 1\nv -1 -0.1 1\nv 1 0.4 0\nv 1 0.3 1\nv 0.5 0.9 2\n"
     "f 1 2 3 4\nf 2 5 6 3\nf 3 6 7\n";
 
-START_TEST(a_scrap_of_our_own)
+START_TEST(a_small_mesh)
 {
   ck_assert_float_le(compare(scrap, 0.001f, 0.3f, true), tolerance_m);
   ck_assert_float_le(compare(scrap, 0.01f, 0.5f, false), tolerance_m);
@@ -141,7 +141,7 @@ START_TEST(the_reference_moves_at_all)
 }
 END_TEST
 
-START_TEST(held_points_drag_the_body_along)
+START_TEST(pinned_points_drag_the_body_along)
 {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 0, 0});
@@ -165,9 +165,9 @@ static Suite *suite(void) {
   TCase *c = tcase_create("relaxation");
   tcase_add_test(c, the_reference_lizard_on_the_ground);
   tcase_add_test(c, the_reference_lizard_in_the_air);
-  tcase_add_test(c, a_scrap_of_our_own);
+  tcase_add_test(c, a_small_mesh);
   tcase_add_test(c, the_reference_moves_at_all);
-  tcase_add_test(c, held_points_drag_the_body_along);
+  tcase_add_test(c, pinned_points_drag_the_body_along);
   suite_add_tcase(s, c);
   return s;
 }

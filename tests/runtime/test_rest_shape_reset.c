@@ -55,7 +55,7 @@ static const struct {
 
 /* Flesh in a heap whose points fly about at some metres a second is put back: bones and flesh have what they
  * had before, of momentum and of angular momentum, and no more energy. */
-START_TEST(what_is_put_back_keeps_its_momentum)
+START_TEST(a_reset_keeps_the_momentum)
 {
   uint32_t ends = blocks[_i].ends;
   scene s = block(blocks[_i].soft_kg, ends);
@@ -90,7 +90,7 @@ START_TEST(what_is_put_back_keeps_its_momentum)
 END_TEST
 
 /* What has lost its numbers has no momentum that could be kept: it goes as its bone does. */
-START_TEST(what_has_lost_its_numbers_goes_with_its_bone)
+START_TEST(bodies_with_invalid_numbers_follow_their_bone)
 {
   scene s = block(1, 1);
   sbri_character *c = sbri_character_of(s.world, s.character);
@@ -113,8 +113,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("put_back");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, what_is_put_back_keeps_its_momentum, 0, sizeof blocks / sizeof *blocks);
-  tcase_add_test(tests, what_has_lost_its_numbers_goes_with_its_bone);
+  tcase_add_loop_test(tests, a_reset_keeps_the_momentum, 0, sizeof blocks / sizeof *blocks);
+  tcase_add_test(tests, bodies_with_invalid_numbers_follow_their_bone);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

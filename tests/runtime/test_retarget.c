@@ -124,7 +124,7 @@ START_TEST(chains_of_one_name_carry_a_clip_to_other_bones)
 }
 END_TEST
 
-START_TEST(a_loaded_character_takes_clips_too)
+START_TEST(loaded_characters_accept_clips)
 {
   sbf_asset *q = quadruped_asset();
   sbf_asset *loaded;
@@ -144,7 +144,7 @@ START_TEST(a_loaded_character_takes_clips_too)
 }
 END_TEST
 
-START_TEST(skeletons_that_share_nothing_are_refused)
+START_TEST(skeletons_without_common_bones_are_refused)
 {
   sbf_asset *q = quadruped_asset();
   sbf_diagnostic error;
@@ -165,8 +165,8 @@ int main(void) {
   Suite *suite = suite_create("retarget");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, chains_of_one_name_carry_a_clip_to_other_bones);
-  tcase_add_test(tests, a_loaded_character_takes_clips_too);
-  tcase_add_test(tests, skeletons_that_share_nothing_are_refused);
+  tcase_add_test(tests, loaded_characters_accept_clips);
+  tcase_add_test(tests, skeletons_without_common_bones_are_refused);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -58,7 +58,7 @@ START_TEST(legs_are_three_bones_or_a_peg_or_have_a_toe)
 {
   gait_stage s;
   gait_stage_begin(&s, make());
-  ck_assert_uint_eq(s.rig.leg_count, 2); /* what is neither is left out */
+  ck_assert_uint_eq(s.rig.leg_count, 2); /* bones of neither leg are ignored */
   ck_assert(s.rig.legs[0].upper == 1 && s.rig.legs[0].lower == -1 && s.rig.legs[0].foot == 2);
   ck_assert_float_eq_tol(s.rig.legs[0].length.upper, sqrtf(0.09f + 0.0025f), 1e-6f);
   gait_stage_end(&s);
@@ -153,7 +153,7 @@ START_TEST(limits_of_a_joint_narrow_each_other)
 END_TEST
 
 /* A foot of an octahedron: a vertex on the ground, a ring of four a half of its height above. */
-START_TEST(a_round_sole_is_as_wide_as_what_is_near_the_ground)
+START_TEST(a_round_sole_is_as_wide_as_its_points_near_the_ground)
 {
   enum { HAND = 16 };
   const float radius = 0.05f, height = 0.12f;
@@ -197,7 +197,7 @@ int main(void) {
   tcase_add_test(tests, legs_are_three_bones_or_a_peg_or_have_a_toe);
   tcase_add_test(tests, a_character_walks_on_pegs);
   tcase_add_test(tests, limits_of_a_joint_narrow_each_other);
-  tcase_add_test(tests, a_round_sole_is_as_wide_as_what_is_near_the_ground);
+  tcase_add_test(tests, a_round_sole_is_as_wide_as_its_points_near_the_ground);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

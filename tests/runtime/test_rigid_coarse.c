@@ -86,7 +86,7 @@ static sbf_vec3 shove_of(uint32_t *seed, bool stairs) {
 /* Persons of 14 and 20 parts, shoved at random on level ground and down stairs: no joint comes off by a third
  * of a millimetre, no limit is broken by a degree on the way or by a tenth of one at rest, no corner is in
  * the ground by 4 mm, and after 5 s nothing moves by more than 1 mm/s; in two thirds of the steps at most. */
-START_TEST(what_falls_coarsely_stays_whole_and_lies)
+START_TEST(bodies_stay_whole_and_rest_with_coarse_steps)
 {
   bool whole = _i & 1, stairs = _i & 2;
   uint32_t seed = 4242, steps = 0, steps_of_fine = 0;
@@ -147,7 +147,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rigid coarse");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, what_falls_coarsely_stays_whole_and_lies, 0, 4);
+  tcase_add_loop_test(tests, bodies_stay_whole_and_rest_with_coarse_steps, 0, 4);
   tcase_add_test(tests, requested_steps_are_kept);
   tcase_add_test(tests, threads_change_nothing);
   suite_add_tcase(suite, tests);

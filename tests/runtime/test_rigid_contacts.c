@@ -41,7 +41,7 @@ static double speed(const scene *s, uint32_t body) {
 }
 
 /* atan 0.5 = 26.565 degrees, a quarter of a degree either way. */
-START_TEST(friction_holds_to_its_angle)
+START_TEST(bodies_stick_up_to_the_friction_angle)
 {
   scene s = on_slope(26.315, 0.5f);
   scene_start(&s);
@@ -116,7 +116,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("ground_touch");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, friction_holds_to_its_angle);
+  tcase_add_test(tests, bodies_stick_up_to_the_friction_angle);
   tcase_add_test(tests, sliding_is_coulombs);
   tcase_add_test(tests, bounces_rise_by_the_restitution);
   tcase_add_test(tests, boxes_come_to_rest);

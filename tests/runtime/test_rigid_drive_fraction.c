@@ -78,14 +78,14 @@ static float even(float fraction) {
   return angle;
 }
 
-START_TEST(share_is_how_much_holds_it)
+START_TEST(the_drive_fraction_scales_the_drive)
 {
   static const float fractions[5][ARMS] = {
       {1, 0.75f, 0.6f}, {0.6f, 1, 0.4f}, {0.4f, 0.3f, 0.2f}, {0, 1, 0.1f}, {0.05f, 0.45f, 0}};
   scene s = arms();
   scene_start(&s);
   sbr_rigid_drive drive = sbr_default_rigid_drive();
-  drive.joint_friction = 0; /* which would hold it before */
+  drive.joint_friction = 0; /* friction would stop it earlier */
   sbr_character_set_rigid_drive(s.world, s.character, &drive);
   drive_all(&s);
   for (uint32_t i = 0; i < ARMS; i++) give(&s, (int32_t)i + 1, fractions[_i][i]);
@@ -99,7 +99,7 @@ START_TEST(share_is_how_much_holds_it)
 END_TEST
 
 /* Each arm as if the others had the same share. */
-START_TEST(shares_are_of_one_bone_each)
+START_TEST(fractions_belong_to_one_bone_each)
 {
   static const float fractions[ARMS] = {0, 1, 0.3f};
   scene mixed = arms_sharing(fractions);
@@ -125,7 +125,7 @@ END_TEST
 /* ---- At both ends ---- */
 
 /* Bit for bit what a passive one does. */
-START_TEST(without_a_share_it_is_a_ragdoll)
+START_TEST(a_zero_drive_fraction_gives_a_ragdoll)
 {
   sbr_rigid_state at[2][PARTS];
   for (int driven = 0; driven < 2; driven++) {
@@ -146,7 +146,7 @@ START_TEST(without_a_share_it_is_a_ragdoll)
 END_TEST
 
 /* A thousandth of the drive is hardly more than none: the flesh about the joint damps as much. */
-START_TEST(a_small_share_is_nearly_none)
+START_TEST(a_small_drive_fraction_is_nearly_a_ragdoll)
 {
   static const float fractions[ARMS] = {0, 0.001f, 0.01f};
   scene s = arms_sharing(fractions);
@@ -224,7 +224,7 @@ END_TEST
 
 /* Kinematic ones are at the pose; driven ones behind it by what the drive's damping and the weight make, the
  * less the greater their share. */
-START_TEST(what_is_driven_follows_the_animation)
+START_TEST(driven_bodies_follow_the_animation)
 {
   float times[KEYS], values[4 * KEYS], worst[ARMS] = {0};
   static const float fractions[ARMS] = {1, 0.75f, 0.2f};
@@ -257,8 +257,8 @@ static float max_change(float damped_rad_s) {
   return (KG * G * REACH_M * (1 + drive.strength) / about_end + drive.joint_damping_1_s * damped_rad_s) / 60;
 }
 
-/* Whatever its share goes to, and however fast: nothing turns at once. */
-START_TEST(shares_change_without_a_jump)
+/* At any change of the drive fraction no body rotates suddenly. */
+START_TEST(fractions_change_without_a_jump)
 {
   scene s = arms();
   scene_start(&s);
@@ -283,8 +283,8 @@ START_TEST(shares_change_without_a_jump)
 }
 END_TEST
 
-/* Let go in the middle of a swing it swings on, and does not begin anew from rest. */
-START_TEST(what_is_let_go_keeps_its_speed)
+/* Released in the middle of a swing, it continues its motion instead of starting at rest. */
+START_TEST(released_bodies_keep_their_velocity)
 {
   float times[KEYS], values[4 * KEYS];
   scene s = swinging(times, values);
@@ -302,13 +302,13 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rigid_share");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, share_is_how_much_holds_it, 0, 5);
-  tcase_add_test(tests, shares_are_of_one_bone_each);
-  tcase_add_test(tests, without_a_share_it_is_a_ragdoll);
-  tcase_add_test(tests, a_small_share_is_nearly_none);
-  tcase_add_test(tests, what_is_driven_follows_the_animation);
-  tcase_add_test(tests, shares_change_without_a_jump);
-  tcase_add_loop_test(tests, what_is_let_go_keeps_its_speed, 0, 2);
+  tcase_add_loop_test(tests, the_drive_fraction_scales_the_drive, 0, 5);
+  tcase_add_test(tests, fractions_belong_to_one_bone_each);
+  tcase_add_test(tests, a_zero_drive_fraction_gives_a_ragdoll);
+  tcase_add_test(tests, a_small_drive_fraction_is_nearly_a_ragdoll);
+  tcase_add_test(tests, driven_bodies_follow_the_animation);
+  tcase_add_test(tests, fractions_change_without_a_jump);
+  tcase_add_loop_test(tests, released_bodies_keep_their_velocity, 0, 2);
   tcase_add_test(tests, settings_without_their_cookie_change_nothing);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -59,7 +59,7 @@ END_TEST
 
 /* The same at the end of a rod, which also begins to turn; from several distances, so in any part of a tick.
  */
-START_TEST(struck_at_an_end)
+START_TEST(a_box_struck_at_an_end)
 {
   const double mass = 1, own = 2, u = 3, length = 0.6, side = 0.1, off = 0.25, e = 0.5;
   scene s = weightless();
@@ -82,8 +82,8 @@ START_TEST(struck_at_an_end)
 }
 END_TEST
 
-/* A crate lies on a box that lies on the ground, which bears both. */
-START_TEST(a_crate_lies_on_a_hull)
+/* A crate on a box on the ground. */
+START_TEST(a_crate_rests_on_a_hull)
 {
   const double masses[5] = {0.01, 0.3, 1, 5, 60};
   double mass = masses[_i % 5], scale = _i < 5 ? 1 : 2;
@@ -106,7 +106,7 @@ START_TEST(a_crate_lies_on_a_hull)
 END_TEST
 
 /* A plank over two boxes, more on one than on the other. */
-START_TEST(two_hulls_bear_it_together)
+START_TEST(two_hulls_carry_it_together)
 {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, -(float)G, 0};
@@ -124,7 +124,7 @@ START_TEST(two_hulls_bear_it_together)
 }
 END_TEST
 
-/* A ball of 5 kg hits a person of 14 parts in the air; joints hand on what it gives. */
+/* A ball of 5 kg hits a person of 14 parts in the air; joints transmit the impulse. */
 START_TEST(a_ball_hits_a_person)
 {
   scene s = person();
@@ -194,8 +194,8 @@ START_TEST(a_tower_weighs)
 }
 END_TEST
 
-/* And what lies on it they bear together. */
-START_TEST(a_crate_lies_on_a_tower)
+/* Both carry the load on it. */
+START_TEST(a_crate_rests_on_a_tower)
 {
   const double masses[3] = {0.1, 1, 5};
   scene s = tower(0);
@@ -210,8 +210,8 @@ START_TEST(a_crate_lies_on_a_tower)
 }
 END_TEST
 
-/* A light body of the host's that its floor bears bears the tower. */
-START_TEST(a_floor_bears_what_bears_a_tower)
+/* A light body of the host on its floor carries the tower. */
+START_TEST(a_floor_carries_a_tower)
 {
   scene s = tower(-1000);
   host_body b = host_body_make(&s, collision_box(0.5f, 0.5f, 0.5f), 0.5, NULL, 1, (sbr_double3){0, -0.5, 0});
@@ -222,7 +222,7 @@ START_TEST(a_floor_bears_what_bears_a_tower)
 }
 END_TEST
 
-/* A ball strikes one of two boxes that meet: all three keep what they have. */
+/* A ball hits one of two boxes in contact: the momentum of all three is conserved. */
 START_TEST(struck_boxes_strike_others)
 {
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
@@ -243,14 +243,14 @@ int main(void) {
   Suite *suite = suite_create("rigid_external_bodies");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, struck_in_the_middle, 0, 15);
-  tcase_add_loop_test(tests, struck_at_an_end, 0, 6);
-  tcase_add_loop_test(tests, a_crate_lies_on_a_hull, 0, 10);
-  tcase_add_test(tests, two_hulls_bear_it_together);
+  tcase_add_loop_test(tests, a_box_struck_at_an_end, 0, 6);
+  tcase_add_loop_test(tests, a_crate_rests_on_a_hull, 0, 10);
+  tcase_add_test(tests, two_hulls_carry_it_together);
   tcase_add_loop_test(tests, a_ball_hits_a_person, 0, 14);
   tcase_add_test(tests, a_person_falls_on_a_crate);
   tcase_add_test(tests, a_tower_weighs);
-  tcase_add_loop_test(tests, a_crate_lies_on_a_tower, 0, 3);
-  tcase_add_test(tests, a_floor_bears_what_bears_a_tower);
+  tcase_add_loop_test(tests, a_crate_rests_on_a_tower, 0, 3);
+  tcase_add_test(tests, a_floor_carries_a_tower);
   tcase_add_test(tests, struck_boxes_strike_others);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

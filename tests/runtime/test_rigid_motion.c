@@ -51,7 +51,7 @@ START_TEST(a_rigid_motion_is_found)
 }
 END_TEST
 
-START_TEST(damping_leaves_it_alone)
+START_TEST(damping_does_not_change_it)
 {
   double before[2][3], after[2][3];
   make((sbf_vec3){1, -2, 0.5f}, (sbf_vec3){0.3f, 2, -1}, 0.5f);
@@ -87,7 +87,7 @@ END_TEST
 
 /* Each point by its own rate: momentum and angular momentum stay, and what is damped the most loses the most.
  */
-START_TEST(rates_of_their_own_leave_it_alone)
+START_TEST(damping_rates_of_bodies_do_not_change_it)
 {
   double before[2][3], after[2][3];
   float rates[POINTS];
@@ -117,8 +117,8 @@ static Suite *suite(void) {
   Suite *s = suite_create("rigid motion");
   TCase *c = tcase_create("rigid motion");
   tcase_add_test(c, a_rigid_motion_is_found);
-  tcase_add_test(c, damping_leaves_it_alone);
-  tcase_add_test(c, rates_of_their_own_leave_it_alone);
+  tcase_add_test(c, damping_does_not_change_it);
+  tcase_add_test(c, damping_rates_of_bodies_do_not_change_it);
   tcase_add_test(c, points_on_a_line_have_no_angular_velocity_about_it);
   suite_add_tcase(s, c);
   return s;

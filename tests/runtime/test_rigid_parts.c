@@ -13,7 +13,7 @@ static float larger(float a, float b) {
 
 /* Within 5 s, whatever way it is thrown; no joint off, no limit broken by a degree on the way and a tenth of
  * one at rest; and nothing moves by more than 1 mm/s then. */
-START_TEST(a_person_falls_and_lies)
+START_TEST(a_person_falls_and_comes_to_rest)
 {
   static const sbf_vec3 shoves[4] = {{0, 0, 60}, {80, 0, -40}, {-30, 100, 0}, {0, -50, -120}};
   scene s = person();
@@ -44,7 +44,7 @@ START_TEST(a_person_falls_and_lies)
 END_TEST
 
 /* Bones are where their bodies are. */
-START_TEST(bones_go_with_their_bodies)
+START_TEST(bones_follow_their_bodies)
 {
   scene s = person();
   scene_start(&s);
@@ -68,7 +68,7 @@ START_TEST(bones_go_with_their_bodies)
 END_TEST
 
 /* The hips held, all else driven: gravity bends it by little, and with no strength it hangs. */
-START_TEST(drives_hold_the_pose)
+START_TEST(drives_keep_the_pose)
 {
   float bent[2];
   for (int passive = 0; passive < 2; passive++) {
@@ -87,7 +87,7 @@ START_TEST(drives_hold_the_pose)
 }
 END_TEST
 
-/* What is let go keeps going; what is caught is at its pose at once. */
+/* Released bodies keep moving; bodies that become kinematic take their pose at once. */
 START_TEST(modes_change_in_motion)
 {
   scene s = person();
@@ -135,7 +135,7 @@ START_TEST(snapshots_and_sleep)
 END_TEST
 
 /* Twice the size falls as a body of that size does: the same shape after sqrt 2 times as long. */
-START_TEST(a_larger_person_falls_the_same_way)
+START_TEST(a_larger_person_falls_equally)
 {
   sbr_joint_state small, large;
   for (int i = 0; i < 2; i++) {
@@ -154,7 +154,7 @@ START_TEST(a_larger_person_falls_the_same_way)
 }
 END_TEST
 
-START_TEST(pushes_that_are_no_numbers_do_nothing)
+START_TEST(invalid_impulses_are_ignored)
 {
   scene s = person();
   scene_start(&s);
@@ -191,7 +191,7 @@ START_TEST(definitions_begin_with_the_default)
 }
 END_TEST
 
-START_TEST(bodies_and_joints_are_known)
+START_TEST(bodies_and_joints_are_found_by_name)
 {
   scene s = person();
   scene_start(&s);
@@ -227,15 +227,15 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rigid_parts");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, a_person_falls_and_lies, 0, 4);
-  tcase_add_test(tests, bones_go_with_their_bodies);
-  tcase_add_test(tests, drives_hold_the_pose);
+  tcase_add_loop_test(tests, a_person_falls_and_comes_to_rest, 0, 4);
+  tcase_add_test(tests, bones_follow_their_bodies);
+  tcase_add_test(tests, drives_keep_the_pose);
   tcase_add_test(tests, modes_change_in_motion);
   tcase_add_test(tests, snapshots_and_sleep);
-  tcase_add_test(tests, a_larger_person_falls_the_same_way);
-  tcase_add_test(tests, pushes_that_are_no_numbers_do_nothing);
+  tcase_add_test(tests, a_larger_person_falls_equally);
+  tcase_add_test(tests, invalid_impulses_are_ignored);
   tcase_add_test(tests, definitions_begin_with_the_default);
-  tcase_add_test(tests, bodies_and_joints_are_known);
+  tcase_add_test(tests, bodies_and_joints_are_found_by_name);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

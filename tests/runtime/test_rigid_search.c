@@ -40,7 +40,7 @@ static void slide_of(slide *s, float was, float to, float bound, float sticks) {
 
 /* Friction of up to 6.9 N s on what 6.4 N s push: it stands, within what friction gives way by, however
  * narrow that is and from whichever side it comes. */
-START_TEST(what_sticks_is_found_however_narrow)
+START_TEST(stuck_bodies_are_found_in_any_gap)
 {
   const float sticks[4] = {1e-2f, 1e-3f, 5e-5f, 1e-5f};
   for (int side = -1; side <= 1; side += 2)
@@ -59,7 +59,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rigid_search");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, what_sticks_is_found_however_narrow, 0, 4);
+  tcase_add_loop_test(tests, stuck_bodies_are_found_in_any_gap, 0, 4);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

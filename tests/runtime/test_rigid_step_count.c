@@ -73,7 +73,7 @@ END_TEST
 
 /* What strikes the ground turns and pulls hard for a tick or two, and then takes as few steps again as it
  * needs. */
-START_TEST(steps_go_back_after_a_strike)
+START_TEST(the_number_of_steps_returns_after_a_hit)
 {
   scene s = whole_person();
   s.world_definition.sleep_after_s = 0;
@@ -96,7 +96,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, flight_takes_few_steps, 0, 2);
   tcase_add_loop_test(tests, a_push_is_no_pull, 0, 2);
-  tcase_add_loop_test(tests, steps_go_back_after_a_strike, 0, 2);
+  tcase_add_loop_test(tests, the_number_of_steps_returns_after_a_hit, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

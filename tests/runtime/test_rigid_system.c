@@ -24,7 +24,7 @@ static float worst_apart(const scene *s, uint32_t joints) {
 
 /* Light links bear a heavy bob, at rest and in a swing of half a radian: no joint is off by half a millimetre
  * of two metres, and the energy stays. */
-START_TEST(light_chains_hold_heavy_bobs)
+START_TEST(light_chains_carry_heavy_bobs)
 {
   const float ratios[4] = {1, 10, 100, 1000};
   for (int swings = 0; swings < 2; swings++) {
@@ -119,7 +119,7 @@ END_TEST
 
 /* A chain held at both ends, by the world: from a V it swings into the curve of a rope, whose ends bear it.
  */
-START_TEST(a_chain_held_at_both_ends_hangs)
+START_TEST(a_chain_fixed_at_both_ends_hangs)
 {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
@@ -146,8 +146,9 @@ START_TEST(a_chain_held_at_both_ends_hangs)
 }
 END_TEST
 
-/* Five by five boxes on ball joints, hung by a corner box and let go from level: 51 rows close loops. */
-START_TEST(a_net_holds)
+/* Five by five boxes on ball joints, attached at a corner box and released from level: 51 rows close loops.
+ */
+START_TEST(a_net_carries_its_load)
 {
   enum { SIDE = 5 };
   scene s = rigid_begin();
@@ -182,12 +183,12 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rigid_system");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, light_chains_hold_heavy_bobs, 0, 4);
+  tcase_add_loop_test(tests, light_chains_carry_heavy_bobs, 0, 4);
   tcase_add_loop_test(tests, light_chains_fall_from_level, 0, 4);
   tcase_add_loop_test(tests, light_chains_crack, 0, 3);
   tcase_add_test(tests, a_loop_of_four_bars_closes);
-  tcase_add_test(tests, a_net_holds);
-  tcase_add_test(tests, a_chain_held_at_both_ends_hangs);
+  tcase_add_test(tests, a_net_carries_its_load);
+  tcase_add_test(tests, a_chain_fixed_at_both_ends_hangs);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -47,7 +47,7 @@ static sbri_rigid_motion motion_after(sbri_island_tick tick) {
   return sbri_rigid_motion_find(&island, &body, positions, velocities);
 }
 
-START_TEST(the_share_grows_with_the_damping)
+START_TEST(the_rolling_radius_grows_with_the_damping)
 {
   ck_assert_float_eq(sbri_rolling_fraction(0), 0);
   /* 1 - exp(-2 pi 0.2) is lost of the work. */
@@ -57,7 +57,7 @@ START_TEST(the_share_grows_with_the_damping)
 }
 END_TEST
 
-START_TEST(the_moment_is_that_of_the_weight_moved_ahead)
+START_TEST(the_rolling_moment_is_that_of_the_weight_shifted_ahead)
 {
   const float fraction = 0.1f;
   sbri_rigid_motion m = motion_after(box(fraction, 0));
@@ -69,7 +69,7 @@ START_TEST(the_moment_is_that_of_the_weight_moved_ahead)
 }
 END_TEST
 
-START_TEST(it_takes_no_more_than_the_spin)
+START_TEST(rolling_resistance_only_stops_the_rotation)
 {
   sbri_rigid_motion m = motion_after(box(100, 0));
   ck_assert_float_eq_tol(m.angular_velocity.z, 0, 1e-4f);
@@ -80,7 +80,7 @@ START_TEST(bodies_in_the_air_roll_on)
 { ck_assert_float_eq_tol(motion_after(box(0.1f, 0.01f)).angular_velocity.z, angular_velocity, 1e-4f); }
 END_TEST
 
-START_TEST(bodies_that_are_held_have_none)
+START_TEST(pinned_bodies_have_no_rolling_resistance)
 {
   sbri_island_tick tick = box(0.1f, 0);
   body.is_pinned = true;
@@ -91,11 +91,11 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("rolling");
   TCase *c = tcase_create("rolling");
-  tcase_add_test(c, the_share_grows_with_the_damping);
-  tcase_add_test(c, the_moment_is_that_of_the_weight_moved_ahead);
-  tcase_add_test(c, it_takes_no_more_than_the_spin);
+  tcase_add_test(c, the_rolling_radius_grows_with_the_damping);
+  tcase_add_test(c, the_rolling_moment_is_that_of_the_weight_shifted_ahead);
+  tcase_add_test(c, rolling_resistance_only_stops_the_rotation);
   tcase_add_test(c, bodies_in_the_air_roll_on);
-  tcase_add_test(c, bodies_that_are_held_have_none);
+  tcase_add_test(c, pinned_bodies_have_no_rolling_resistance);
   suite_add_tcase(s, c);
   return s;
 }

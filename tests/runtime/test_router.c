@@ -22,7 +22,7 @@ static uint32_t recovering(const scene *s) {
   return sbri_island_states(&s->world->characters[0])[0].recovery.ticks;
 }
 
-START_TEST(what_is_soft_is_stepped_explicitly)
+START_TEST(soft_bodies_are_stepped_explicitly)
 {
   uint64_t hashes[2];
   for (int k = 0; k < 2; k++) {
@@ -41,7 +41,7 @@ START_TEST(what_is_soft_is_stepped_explicitly)
 }
 END_TEST
 
-START_TEST(what_is_stiff_is_not)
+START_TEST(stiff_bodies_are_stepped_implicitly)
 {
   scene s = section(1e12f);
   scene_start(&s);
@@ -69,7 +69,7 @@ START_TEST(requests_are_applied)
 END_TEST
 
 /* Speeds of more than a cell a substep, at random. */
-START_TEST(what_is_thrown_about_recovers_and_is_let_go)
+START_TEST(thrown_bodies_recover_and_return_to_their_scheme)
 {
   scene s = section(8e4f);
   scene_start(&s);
@@ -116,7 +116,7 @@ START_TEST(one_inverted_element_is_trouble)
 END_TEST
 
 /* Pushed through itself, all of it. */
-START_TEST(what_is_inside_out_is_whole_within_a_second)
+START_TEST(inverted_bodies_recover_within_a_second)
 {
   scene s = section(8e4f);
   scene_start(&s);
@@ -136,12 +136,12 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("router");
   TCase *c = tcase_create("router");
-  tcase_add_test(c, what_is_soft_is_stepped_explicitly);
-  tcase_add_test(c, what_is_stiff_is_not);
+  tcase_add_test(c, soft_bodies_are_stepped_explicitly);
+  tcase_add_test(c, stiff_bodies_are_stepped_implicitly);
   tcase_add_test(c, requests_are_applied);
-  tcase_add_test(c, what_is_thrown_about_recovers_and_is_let_go);
+  tcase_add_test(c, thrown_bodies_recover_and_return_to_their_scheme);
   tcase_add_test(c, one_inverted_element_is_trouble);
-  tcase_add_test(c, what_is_inside_out_is_whole_within_a_second);
+  tcase_add_test(c, inverted_bodies_recover_within_a_second);
   suite_add_tcase(s, c);
   return s;
 }

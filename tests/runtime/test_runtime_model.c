@@ -143,7 +143,7 @@ END_TEST
 
 /* Of points inside, stiffness and mass are in one proportion: the middle one, on which all of the surface
  * pulls, is as heavy as that. */
-START_TEST(freed_points_inside_share_their_matter_by_stiffness)
+START_TEST(unpinned_interior_points_divide_their_mass_by_stiffness)
 {
   scene s = section();
   s.model_options.free = true;
@@ -190,7 +190,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_scheme_that_cannot_step_a_level_is_refused);
   tcase_add_test(c, points_of_a_block_have_about_as_many_springs);
   tcase_add_test(c, freed_bodies_have_their_whole_mass);
-  tcase_add_test(c, freed_points_inside_share_their_matter_by_stiffness);
+  tcase_add_test(c, unpinned_interior_points_divide_their_mass_by_stiffness);
   tcase_add_test(c, an_empty_asset_makes_an_empty_model);
   suite_add_tcase(s, c);
   return s;

@@ -67,7 +67,7 @@ START_TEST(uneven_and_long_frames_change_nothing)
 }
 END_TEST
 
-START_TEST(between_ticks_lies_the_straight_way)
+START_TEST(poses_between_ticks_are_interpolated_linearly)
 {
   scene s = walker();
   scene_ticks(&s, 10);
@@ -112,7 +112,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("sample");
   tcase_add_test(c, every_frame_rate_shows_the_same_motion);
   tcase_add_test(c, uneven_and_long_frames_change_nothing);
-  tcase_add_test(c, between_ticks_lies_the_straight_way);
+  tcase_add_test(c, poses_between_ticks_are_interpolated_linearly);
   tcase_add_test(c, small_buffers_are_not_overrun);
   suite_add_tcase(s, c);
   return s;

@@ -33,7 +33,7 @@ typedef struct row {
   /* Bounds of the shares by which it may be off, by models; the period of SWING, and of both spins the
    * greater of momentum and angular momentum; negative: it does not run that. */
   double within[CASE_COUNT][MODEL_COUNT];
-  double damping[MODEL_COUNT]; /* bound of what it adds to SWING, as a ratio */
+  double damping[MODEL_COUNT]; /* bound of the damping added to SWING, as a ratio */
 } row;
 
 static const row rows[] = {
@@ -204,7 +204,7 @@ static double rest_bias(elastic model, const row *r, question q) {
 
 /* ---- Motion ---- */
 
-/* The bar let go from a slight bend: period and damping ratio of that motion. */
+/* The bar is released from a slight bend: period and damping ratio of the motion. */
 static double swing_period(elastic model, const row *r, double *damping) {
   enum { TICKS = 240 };
   static sbf_vec3 positions[MAX_POINTS], shape[MAX_POINTS];
@@ -347,7 +347,7 @@ END_TEST
 
 /* Position-based steps draw what turns back to its circle from the tangent: it loses w^2 h of its angular
  * velocity a second, so that w = w0 / sqrt(1 + 2 w0^2 h t). */
-START_TEST(position_based_spin_is_lost_with_the_square_of_its_speed)
+START_TEST(position_based_rotation_decays_with_its_squared_speed)
 {
   static const uint32_t substeps[] = {8, 16, 32, 64};
   const row r = {.scheme = SBF_SCHEME_POSITION_BASED, .substeps = substeps[_i]};
@@ -363,7 +363,7 @@ int main(void) {
   Suite *suite = suite_create("scheme_bias");
   TCase *c = tcase_create("scheme_bias");
   tcase_add_loop_test(c, bias_is_within_its_bound, 0, ROW_COUNT * CASE_COUNT);
-  tcase_add_loop_test(c, position_based_spin_is_lost_with_the_square_of_its_speed, 0, 4);
+  tcase_add_loop_test(c, position_based_rotation_decays_with_its_squared_speed, 0, 4);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -65,7 +65,7 @@ static scene cloth(sbf_scheme scheme, float stiffness, bool sorted) {
   return s;
 }
 
-/* The same in the others, but with what they can be stepped with: 24 substeps of explicit schemes. */
+/* The same in the other schemes with suitable steps: 24 substeps of explicit schemes. */
 START_TEST(springs_listed_from_the_pins_on_do_not_burst)
 {
   bool stiff = schemes[_i] == SBF_SCHEME_AUTOMATIC || schemes[_i] == SBF_SCHEME_POSITION_BASED ||
@@ -188,7 +188,7 @@ static scene bar(sbf_scheme scheme) {
 /* The order in which a file lists springs and tetrahedra, their ends and their corners, has no say beyond the
  * last digits of what sums them, and little in what settles one after the other. The reference's own goes by
  * the order, as it did: the same shape within a centimetre. */
-START_TEST(elements_may_be_listed_the_other_way_round)
+START_TEST(elements_may_be_listed_in_reverse)
 {
   for (int solid = 0; solid < (schemes[_i] == SBF_SCHEME_RELAXATION ? 1 : 2); solid++) {
     sbf_vec3 positions[2][128];
@@ -219,7 +219,7 @@ START_TEST(elements_may_be_listed_the_other_way_round)
 END_TEST
 
 /* A weight ten thousand times as heavy as the chain's links. */
-START_TEST(heavy_hangs_on_light)
+START_TEST(heavy_points_hang_on_light_ones)
 {
   enum { LINKS = 8 };
   scene s = scene_begin();
@@ -303,8 +303,8 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, springs_listed_from_the_pins_on_do_not_burst, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, hitches_and_jitter_show_the_same_motion, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, pins_may_jump, 0, SCHEME_COUNT);
-  tcase_add_loop_test(c, elements_may_be_listed_the_other_way_round, 0, SCHEME_COUNT);
-  tcase_add_loop_test(c, heavy_hangs_on_light, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, elements_may_be_listed_in_reverse, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, heavy_points_hang_on_light_ones, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, loose_bodies_are_repaired_in_their_position, 0, EXPLICIT_EULER);
   tcase_add_loop_test(c, a_surface_inside_out_does_not_blow_up, 0, SCHEME_COUNT);
   suite_add_tcase(s, c);

@@ -1,4 +1,4 @@
-/* What is told of schemes that are known to be off the energy. */
+/* Warnings about schemes with a known error of the energy. */
 #include <string.h>
 
 #include "harness.h"
@@ -20,7 +20,7 @@ static void hear(void *user, const sbf_diagnostic *diagnostic) {
   strncpy(h->last, diagnostic->message, sizeof h->last - 1);
 }
 
-/* A held section of springs, or a bar of tetrahedra that is held nowhere. */
+/* A pinned section of springs, or an unpinned bar of tetrahedra. */
 static scene make(bool solid, float modulus, sbf_scheme scheme, uint32_t substeps) {
   scene s = scene_begin();
   if (solid) {
@@ -78,7 +78,7 @@ START_TEST(known_errors_are_reported)
 }
 END_TEST
 
-/* What is left to the runtime is stepped by what follows its energy, as long as anything does. */
+/* With the automatic scheme, bodies are stepped by a scheme that follows the energy, if there is one. */
 START_TEST(a_stiff_body_is_stepped_explicitly)
 {
   scene s = make(true, 1e9f, SBF_SCHEME_AUTOMATIC, 0);

@@ -69,7 +69,7 @@ static double min_gap(const scene *s) {
 
 /* The upper leg, which nothing holds at its end, falls onto the lower one and lies there; without `self` it
  * falls through. */
-START_TEST(a_folding_strip_lies_on_itself)
+START_TEST(a_folding_strip_rests_on_itself)
 {
   double min[2] = {1e9, 1e9}, end[2];
   for (int contacts = 0; contacts < 2; contacts++) {
@@ -91,7 +91,7 @@ END_TEST
 
 /* And lies there: no point of the leg on the other hops or creeps. (The rows that are the fold swing on like
  * pendulums: nothing damps that here.) */
-START_TEST(a_folded_strip_lies_still)
+START_TEST(a_folded_strip_rests)
 {
   const float frictions[3] = {1, 0.3f, 0.1f};
   enum { FIRST = 30 * WIDE };
@@ -182,8 +182,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("self_touch");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_folding_strip_lies_on_itself);
-  tcase_add_loop_test(tests, a_folded_strip_lies_still, 0, 3);
+  tcase_add_test(tests, a_folding_strip_rests_on_itself);
+  tcase_add_loop_test(tests, a_folded_strip_rests, 0, 3);
   tcase_add_loop_test(tests, a_sharp_fold_comes_to_rest, 0, 3);
   tcase_add_test(tests, momentum_is_kept);
   suite_add_tcase(suite, tests);

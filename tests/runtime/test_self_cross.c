@@ -41,7 +41,7 @@ static uint32_t count_all(const sbf_vec3 at[ALL]) {
 
 /* A sheet dropped on its edge crumples, and goes through itself at its corners as it does: after two and a
  * half seconds nothing of it does any more. (40 of its sides went on to.) */
-START_TEST(a_crumpled_sheet_is_not_through_itself)
+START_TEST(a_crumpled_sheet_does_not_intersect_itself)
 {
   static sbf_vec3 at[ALL], now[ALL];
   for (uint32_t i = 0; i < ALL; i++) {
@@ -64,7 +64,7 @@ START_TEST(a_crumpled_sheet_is_not_through_itself)
 END_TEST
 
 /* Two strips that go through each other at rest let each other be. */
-START_TEST(what_is_through_itself_at_rest_stays)
+START_TEST(intersections_at_rest_stay)
 {
   enum { STRIP = 12, POINTS = 2 * STRIP };
   static sbf_vec3 at[POINTS];
@@ -132,7 +132,7 @@ static uint32_t count_cubes(const sbf_vec3 at[16]) {
 /* One box of a body is put so deep into the other that none of its corners is within `inner_thickness` of a
  * face, and a thin bar that no edges touch either: it comes out, and the body as a whole stays where it was.
  * (It was let be.) */
-START_TEST(what_is_deep_in_itself_comes_out)
+START_TEST(deep_self_intersections_separate)
 {
   static const float deep_m[] = {0.03f, 0.045f, 0.06f, 0.04f};
   sbf_vec3 at[16], before[16];
@@ -162,9 +162,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("self_cross");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_crumpled_sheet_is_not_through_itself);
-  tcase_add_test(tests, what_is_through_itself_at_rest_stays);
-  tcase_add_loop_test(tests, what_is_deep_in_itself_comes_out, 0, 4);
+  tcase_add_test(tests, a_crumpled_sheet_does_not_intersect_itself);
+  tcase_add_test(tests, intersections_at_rest_stay);
+  tcase_add_loop_test(tests, deep_self_intersections_separate, 0, 4);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

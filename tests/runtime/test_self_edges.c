@@ -30,7 +30,7 @@ static float over(const scene *s) {
   return sbri_lerp(mid[2], mid[3], v).y - sbri_lerp(mid[0], mid[1], u).y;
 }
 
-/* What falls across another part of the same body does not pass it; without `self` it does. */
+/* A part that falls across another part of the same body does not pass through it; without `self` it does. */
 START_TEST(rims_collide_with_their_own_body)
 {
   static sbf_vec3 at[2 * PART];

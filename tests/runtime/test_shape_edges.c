@@ -35,7 +35,7 @@ static float over(const scene *s) {
 }
 
 /* Four points a side, none over the beam: it hangs over it for a second and a half, where it fell past it. */
-START_TEST(a_coarse_sheet_hangs_over_a_beam)
+START_TEST(a_coarse_sheet_rests_over_a_beam)
 {
   scene s = scene_begin();
   s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
@@ -58,7 +58,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("shape_edges");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, a_coarse_sheet_hangs_over_a_beam, 0, 3);
+  tcase_add_loop_test(tests, a_coarse_sheet_rests_over_a_beam, 0, 3);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -34,7 +34,7 @@ static float host_floor(void *user, sbf_vec3 position, float reach, sbf_vec3 *no
 }
 
 /* A box dropped on the top (y = 0) of each kind of shape lies there, as high as it is. */
-START_TEST(a_box_lies_on_any_shape)
+START_TEST(a_box_rests_on_any_shape)
 {
   float heights[25] = {0};
   const sbf_vec3 points[8] = {
@@ -62,7 +62,7 @@ START_TEST(a_box_lies_on_any_shape)
 }
 END_TEST
 
-START_TEST(friction_holds_to_its_angle)
+START_TEST(bodies_stick_up_to_the_friction_angle)
 {
   const double degrees[2] = {26.315, 26.815};
   for (int i = 0; i < 2; i++) {
@@ -190,7 +190,7 @@ START_TEST(rays_find_the_ground)
 }
 END_TEST
 
-START_TEST(places_that_are_no_numbers_are_refused)
+START_TEST(invalid_positions_are_refused)
 {
   scene s = begin();
   scene_start(&s);
@@ -222,12 +222,12 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("shape_touches");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, a_box_lies_on_any_shape, 0, 6);
-  tcase_add_test(tests, friction_holds_to_its_angle);
+  tcase_add_loop_test(tests, a_box_rests_on_any_shape, 0, 6);
+  tcase_add_test(tests, bodies_stick_up_to_the_friction_angle);
   tcase_add_test(tests, a_bullet_stops_at_a_thin_board);
   tcase_add_test(tests, a_moving_ball_pushes);
   tcase_add_loop_test(tests, rays_find_the_ground, 0, 2);
-  tcase_add_test(tests, places_that_are_no_numbers_are_refused);
+  tcase_add_test(tests, invalid_positions_are_refused);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -5,7 +5,7 @@
 
 static const uint32_t two[6] = {0, 1, 2, 2, 1, 3};
 
-START_TEST(two_triangles_share_one_side)
+START_TEST(two_triangles_have_one_common_side)
 {
   uint32_t beside[6], table[64];
   ck_assert_uint_le(sbri_sides_table(2), 64);
@@ -35,7 +35,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("sides");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, two_triangles_share_one_side);
+  tcase_add_test(tests, two_triangles_have_one_common_side);
   tcase_add_test(tests, folds_are_bent_and_flat_ones_are_not);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -21,12 +21,12 @@ static scene box(uint32_t cells) {
   scene_section(&s, 0, (sbf_vec3){0, 0.5f, 0}, (sbf_vec3){0.4f, 0.2f, 0.6f}, cells);
   scene_skin(&s, 0);
   s.character_definition.position.y = 0;
-  s.character_definition.hold = true;
+  s.character_definition.hold_pose = true;
   s.world_definition.ground = sbr_ground_flat(0);
   return s;
 }
 
-START_TEST(the_skin_lies_at_rest_to_begin_with)
+START_TEST(the_skin_starts_at_rest)
 {
   scene s = box(3);
   scene_start(&s);
@@ -172,7 +172,7 @@ START_TEST(without_texture_tangents_are_zero)
 }
 END_TEST
 
-START_TEST(normals_turn_with_the_body)
+START_TEST(normals_rotate_with_the_body)
 {
   scene s = box(2);
   s.character_definition.heading = 1.2f;
@@ -194,12 +194,12 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("skin");
   TCase *c = tcase_create("skin");
-  tcase_add_test(c, the_skin_lies_at_rest_to_begin_with);
+  tcase_add_test(c, the_skin_starts_at_rest);
   tcase_add_test(c, hard_edges_stay_hard_and_soft_ones_soft);
   tcase_add_test(c, seams_are_shaded_as_authored);
   tcase_add_test(c, tangents_follow_the_texture);
   tcase_add_test(c, without_texture_tangents_are_zero);
-  tcase_add_test(c, normals_turn_with_the_body);
+  tcase_add_test(c, normals_rotate_with_the_body);
   suite_add_tcase(s, c);
   return s;
 }

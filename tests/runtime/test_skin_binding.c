@@ -60,7 +60,7 @@ START_TEST(vertices_blend_over_points_and_bodies)
 }
 END_TEST
 
-START_TEST(shares_that_do_not_add_up_are_brought_there)
+START_TEST(weights_are_normalized)
 {
   const float blends[] = {0.5f, 0.2f, 1, 0.6f, 0};
   scene s = carried(blends);
@@ -115,7 +115,7 @@ START_TEST(skins_follow_bones_where_no_body_carries_them)
 }
 END_TEST
 
-START_TEST(a_body_without_levels_goes_with_its_bone)
+START_TEST(a_body_without_levels_follows_its_bone)
 {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 0, 0});
@@ -177,9 +177,9 @@ static Suite *suite(void) {
   Suite *s = suite_create("skin_binding");
   TCase *c = tcase_create("skin carry");
   tcase_add_test(c, vertices_blend_over_points_and_bodies);
-  tcase_add_test(c, shares_that_do_not_add_up_are_brought_there);
+  tcase_add_test(c, weights_are_normalized);
   tcase_add_test(c, skins_follow_bones_where_no_body_carries_them);
-  tcase_add_test(c, a_body_without_levels_goes_with_its_bone);
+  tcase_add_test(c, a_body_without_levels_follows_its_bone);
   tcase_add_test(c, points_named_several_times_carry_once);
   suite_add_tcase(s, c);
   return s;

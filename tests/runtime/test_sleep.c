@@ -68,7 +68,7 @@ static void expect_no_velocity(const scene *s) {
   }
 }
 
-START_TEST(what_rests_sleeps_without_a_jump_of_energy)
+START_TEST(resting_bodies_fall_asleep_without_a_jump_of_energy)
 {
   scene s = make_scene(sbr_ground_flat(0), 0.5), twin = make_scene(sbr_ground_flat(0), 0);
   double before = 0;
@@ -110,7 +110,7 @@ START_TEST(what_rests_sleeps_without_a_jump_of_energy)
 }
 END_TEST
 
-START_TEST(nothing_sleeps_unless_it_may)
+START_TEST(nothing_sleeps_while_sleep_is_disabled)
 {
   scene s = make_scene(sbr_ground_flat(0), 0);
   scene_ticks(&s, 600);
@@ -143,7 +143,7 @@ static void reset(scene *s) {
   sbr_character_reset(s->world, s->character);
 }
 
-START_TEST(what_moves_it_wakes_it)
+START_TEST(moving_a_sleeping_body_wakes_it)
 {
   static const struct {
     void (*act)(scene *);
@@ -235,9 +235,9 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("sleep");
   TCase *c = tcase_create("sleep");
-  tcase_add_test(c, what_rests_sleeps_without_a_jump_of_energy);
-  tcase_add_test(c, nothing_sleeps_unless_it_may);
-  tcase_add_loop_test(c, what_moves_it_wakes_it, 0, 7);
+  tcase_add_test(c, resting_bodies_fall_asleep_without_a_jump_of_energy);
+  tcase_add_test(c, nothing_sleeps_while_sleep_is_disabled);
+  tcase_add_loop_test(c, moving_a_sleeping_body_wakes_it, 0, 7);
   tcase_add_test(c, a_sleeping_character_costs_no_work);
   tcase_add_test(c, threads_and_snapshots_agree_about_sleep);
   suite_add_tcase(s, c);

@@ -72,7 +72,7 @@ static slid slide(slope_case which, double fraction) {
   return (slid){0.5 * (third - first), third - 2 * second + first};
 }
 
-START_TEST(a_block_stays_where_friction_holds_it)
+START_TEST(a_block_sticks_within_the_friction_cone)
 {
   static const double fractions[] = {0.8, 0.95};
   slope_case which = slope_case_of(_i);
@@ -102,7 +102,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("slide_damping");
   TCase *c = tcase_create("slide_damping");
-  tcase_add_loop_test(c, a_block_stays_where_friction_holds_it, 0, KINDS * SCHEMES * COEFFICIENTS);
+  tcase_add_loop_test(c, a_block_sticks_within_the_friction_cone, 0, KINDS * SCHEMES * COEFFICIENTS);
   tcase_add_loop_test(c, a_block_slides_by_coulombs_law, 0, KINDS * SCHEMES * COEFFICIENTS);
   suite_add_tcase(suite, c);
   return harness_run(suite);

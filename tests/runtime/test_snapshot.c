@@ -69,7 +69,7 @@ START_TEST(two_worlds_agree_to_the_bit)
 }
 END_TEST
 
-START_TEST(what_does_not_fit_is_refused)
+START_TEST(snapshots_of_another_world_are_refused)
 {
   scene s = walker();
   size_t size = sbr_world_get_snapshot_size(s.world);
@@ -102,7 +102,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("snapshot");
   tcase_add_loop_test(c, a_restored_world_continues_equally, 0, SCHEME_COUNT);
   tcase_add_test(c, two_worlds_agree_to_the_bit);
-  tcase_add_test(c, what_does_not_fit_is_refused);
+  tcase_add_test(c, snapshots_of_another_world_are_refused);
   suite_add_tcase(s, c);
   return s;
 }

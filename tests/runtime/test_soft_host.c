@@ -61,7 +61,7 @@ static void check_vec3(const double is[3], const double wanted[3], double tolera
   for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(is[k], wanted[k], tolerance);
 }
 
-START_TEST(an_impulse_is_momentum_gained)
+START_TEST(an_impulse_adds_equal_momentum)
 {
   const float scale = _i ? 0.25f : 1;
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, 0, scale);
@@ -104,11 +104,11 @@ START_TEST(an_impulse_on_the_whole_body_deforms_nothing)
 }
 END_TEST
 
-START_TEST(a_velocity_that_is_set_is_had)
+START_TEST(a_velocity_that_is_set_is_read_back)
 {
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, 0, 0.5f);
   const sbf_vec3 v = {1, -2, 0.5f}, w = {0.5f, 2, -1};
-  for (int i = 0; i < 2; i++) { /* what it had before does not matter */
+  for (int i = 0; i < 2; i++) { /* regardless of its previous motion */
     ck_assert_int_eq(sbr_character_set_soft_velocity(s.world, s.character, 0, v, w, NULL), SBF_OK);
     sbr_soft_motion m = sbr_character_get_soft_motion(s.world, s.character, 0);
     ck_assert_float_eq_tol(m.velocity.x, v.x, 1e-5f);
@@ -146,7 +146,7 @@ START_TEST(a_force_acts_for_its_duration)
 }
 END_TEST
 
-START_TEST(pins_bear_what_hangs_on_them)
+START_TEST(pins_report_the_load_on_them)
 {
   const float scale = _i < SCHEMES ? 1 : 0.5f;
   scene s = cube(schemes[_i % SCHEMES], true, gravity, scale);
@@ -158,7 +158,7 @@ START_TEST(pins_bear_what_hangs_on_them)
   ck_assert_int_eq(r.bone, -1);
   ck_assert_float_eq_tol(r.force.y, weight, off * weight);
   ck_assert_float_eq_tol(r.force.x, 0, off * weight);
-  /* The centre of mass is to the side: the pins hold it up by a moment, weight times arm. */
+  /* The centre of mass is to the side: the moment of the pins is weight times lever arm. */
   sbr_soft_motion m = sbr_character_get_soft_motion(s.world, s.character, 0);
   float arm = m.center.x - r.about.x;
   ck_assert_float_gt(arm, 0.15f * scale);
@@ -200,7 +200,7 @@ static scene bar(sbf_scheme scheme, bool both, float damping_ratio) {
   return s;
 }
 
-START_TEST(both_ends_bear_half_a_bar)
+START_TEST(both_ends_carry_half_a_bar)
 {
   scene s = bar(schemes[_i], true, 1);
   sbr_pin_reaction r[2];
@@ -212,7 +212,7 @@ START_TEST(both_ends_bear_half_a_bar)
     ck_assert_uint_eq(r[k].points, 9);
     ck_assert_float_eq_tol(r[k].force.y, weight / 2, 0.01f * weight);
   }
-  /* It sags: each end pulls the bar outwards, and holds it against turning. */
+  /* It sags: each end pulls the bar outwards and resists its rotation. */
   ck_assert_float_lt(r[0].force.x, 0);
   ck_assert_float_eq_tol(r[1].force.x, -r[0].force.x, 0.01f * weight);
   ck_assert_float_gt(r[0].torque.z, 0.05f * weight);
@@ -222,7 +222,7 @@ END_TEST
 
 /* Momentum gained is the sum over time of weight and reactions, as of the end of each tick: in the schemes
  * that step by forces. */
-START_TEST(what_swings_gains_what_pins_and_weight_give)
+START_TEST(momentum_changes_by_pin_forces_and_weight)
 {
   scene s = bar(_i ? SBF_SCHEME_HEUN : SBF_SCHEME_SYMPLECTIC, false, 0);
   sbr_pin_reaction before, after;
@@ -269,21 +269,21 @@ START_TEST(goal_springs_are_pins_too)
 }
 END_TEST
 
-START_TEST(what_is_held_hangs_where_it_is_held)
+START_TEST(a_grabbed_body_hangs_at_its_grab_point)
 {
   scene s = cube(schemes[_i], false, gravity, 1);
   uint32_t vertex = far_corner(&s);
   sbf_vec3 at = vertex_at(&s, vertex);
   sbr_double3 o = sbr_character_get_origin(s.world, s.character);
-  sbr_soft_hold hold = {0};
+  sbr_vertex_grab hold = {0};
   sbf_diagnostic error;
-  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, &error), SBF_FAILED);
-  ck_assert_ptr_nonnull(strstr(error.message, "begin with sbr_default_soft_hold"));
-  hold = sbr_default_soft_hold();
+  ck_assert_int_eq(sbr_character_grab_vertex(s.world, s.character, 0, vertex, &hold, &error), SBF_FAILED);
+  ck_assert_ptr_nonnull(strstr(error.message, "begin with sbr_default_vertex_grab"));
+  hold = sbr_default_vertex_grab();
   hold.target = (sbr_double3){o.x + (double)at.x + 0.3, o.y + (double)at.y + 0.2, o.z + (double)at.z};
   hold.frequency_hz = 4;
   float weight = mass_of(&s) * gravity, k = mass_of(&s) * powf(2 * 3.14159265f * hold.frequency_hz, 2);
-  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
+  ck_assert_int_eq(sbr_character_grab_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
   for (int i = 0; i < 40; i++) { /* nothing else stops the pendulum */
     scene_ticks(&s, 30);
     ck_assert_int_eq(sbr_character_set_soft_velocity(
@@ -294,7 +294,7 @@ START_TEST(what_is_held_hangs_where_it_is_held)
   o = sbr_character_get_origin(s.world, s.character);
   ck_assert_double_eq_tol(o.y + (double)at.y, hold.target.y - (double)(weight / k), 0.01);
   ck_assert_double_eq_tol(o.x + (double)at.x, hold.target.x, 0.02);
-  sbf_vec3 force = sbr_character_get_hold_force(s.world, s.character, 0, vertex);
+  sbf_vec3 force = sbr_character_get_grab_force(s.world, s.character, 0, vertex);
   ck_assert_float_eq_tol(force.y, weight, 0.1f * weight);
   /* Let go it falls as it is. */
   ck_assert(sbr_character_release_vertex(s.world, s.character, 0, vertex));
@@ -303,24 +303,24 @@ START_TEST(what_is_held_hangs_where_it_is_held)
   scene_ticks(&s, 6);
   float fell = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y - before;
   ck_assert_float_eq_tol(fell, -0.1f * gravity, 1e-3f);
-  ck_assert_float_eq(sbr_character_get_hold_force(s.world, s.character, 0, vertex).y, 0);
+  ck_assert_float_eq(sbr_character_get_grab_force(s.world, s.character, 0, vertex).y, 0);
   scene_free(&s);
 }
 END_TEST
 
-START_TEST(a_hold_never_pulls_harder_than_it_may)
+START_TEST(a_grab_never_exceeds_its_max_force)
 {
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, gravity, 1);
   uint32_t vertex = far_corner(&s);
   sbr_double3 o = sbr_character_get_origin(s.world, s.character);
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab hold = sbr_default_vertex_grab();
   float weight = mass_of(&s) * gravity;
   hold.target = (sbr_double3){o.x, o.y + 50, o.z};
   hold.max_force = 0.5f * weight;
-  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
+  ck_assert_int_eq(sbr_character_grab_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
   float before = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y;
   scene_ticks(&s, 12);
-  sbf_vec3 force = sbr_character_get_hold_force(s.world, s.character, 0, vertex);
+  sbf_vec3 force = sbr_character_get_grab_force(s.world, s.character, 0, vertex);
   ck_assert_float_le(
       sqrtf(force.x * force.x + force.y * force.y + force.z * force.z), hold.max_force * 1.0001f);
   float fell = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y - before;
@@ -330,7 +330,7 @@ START_TEST(a_hold_never_pulls_harder_than_it_may)
 }
 END_TEST
 
-START_TEST(what_sleeps_wakes)
+START_TEST(host_calls_wake_sleeping_bodies)
 {
   scene s = scene_begin();
   const sbf_vec3 at[2] = {{0, 1, 0}, {0, 0.5f, 0}};
@@ -374,7 +374,7 @@ START_TEST(bad_calls_are_refused_and_change_nothing)
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, gravity, 1);
   const sbf_vec3 one = {1, 0, 0}, none = {NAN, 0, 0}, endless = {0, INFINITY, 0};
   sbf_diagnostic e;
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab hold = sbr_default_vertex_grab();
   uint64_t hash = sbr_world_get_state_hash(s.world);
   sbr_world *w = s.world;
   sbr_character_id c = s.character, nobody = {12345};
@@ -384,12 +384,12 @@ START_TEST(bad_calls_are_refused_and_change_nothing)
   refused(sbr_character_apply_soft_impulse(w, c, 0, 0, none, &e), &e, "not a finite number");
   refused(sbr_character_set_soft_velocity(w, c, 0, one, endless, &e), &e, "not a finite number");
   refused(sbr_character_apply_soft_force(w, c, 0, 0, one, -1, &e), &e, "more than 0");
-  refused(sbr_character_hold_vertex(w, c, 0, SBR_WHOLE_BODY, &hold, &e), &e, "vertex");
-  refused(sbr_character_hold_vertex(w, c, 0, 0, NULL, &e), &e, "NULL");
+  refused(sbr_character_grab_vertex(w, c, 0, SBR_WHOLE_BODY, &hold, &e), &e, "vertex");
+  refused(sbr_character_grab_vertex(w, c, 0, 0, NULL, &e), &e, "NULL");
   hold.target.x = (double)NAN;
-  refused(sbr_character_hold_vertex(w, c, 0, 0, &hold, &e), &e, "not a finite number");
+  refused(sbr_character_grab_vertex(w, c, 0, 0, &hold, &e), &e, "not a finite number");
   hold.target.x = 0, hold.damping_ratio = 11;
-  refused(sbr_character_hold_vertex(w, c, 0, 0, &hold, &e), &e, "damping_ratio");
+  refused(sbr_character_grab_vertex(w, c, 0, 0, &hold, &e), &e, "damping_ratio");
   ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++)
     ck_assert_int_eq(sbr_character_apply_soft_force(w, c, 0, 0, one, 5, &e), SBF_OK);
@@ -403,17 +403,17 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("soft_host");
   TCase *c = tcase_create("soft_host");
-  tcase_add_loop_test(c, an_impulse_is_momentum_gained, 0, 2);
+  tcase_add_loop_test(c, an_impulse_adds_equal_momentum, 0, 2);
   tcase_add_test(c, an_impulse_on_the_whole_body_deforms_nothing);
-  tcase_add_test(c, a_velocity_that_is_set_is_had);
+  tcase_add_test(c, a_velocity_that_is_set_is_read_back);
   tcase_add_loop_test(c, a_force_acts_for_its_duration, 0, SCHEMES);
-  tcase_add_loop_test(c, pins_bear_what_hangs_on_them, 0, SCHEMES + 1);
-  tcase_add_loop_test(c, both_ends_bear_half_a_bar, 0, SCHEMES);
-  tcase_add_loop_test(c, what_swings_gains_what_pins_and_weight_give, 0, 2);
+  tcase_add_loop_test(c, pins_report_the_load_on_them, 0, SCHEMES + 1);
+  tcase_add_loop_test(c, both_ends_carry_half_a_bar, 0, SCHEMES);
+  tcase_add_loop_test(c, momentum_changes_by_pin_forces_and_weight, 0, 2);
   tcase_add_test(c, goal_springs_are_pins_too);
-  tcase_add_loop_test(c, what_is_held_hangs_where_it_is_held, 0, SCHEMES);
-  tcase_add_test(c, a_hold_never_pulls_harder_than_it_may);
-  tcase_add_test(c, what_sleeps_wakes);
+  tcase_add_loop_test(c, a_grabbed_body_hangs_at_its_grab_point, 0, SCHEMES);
+  tcase_add_test(c, a_grab_never_exceeds_its_max_force);
+  tcase_add_test(c, host_calls_wake_sleeping_bodies);
   tcase_add_test(c, bad_calls_are_refused_and_change_nothing);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -27,7 +27,7 @@ static double min_distance(const scene *s, sbf_vec3 center) {
 }
 
 /* No point within the ball, on the way or at the end; it hangs on it. */
-START_TEST(cloth_lies_over_a_ball)
+START_TEST(cloth_rests_on_a_ball)
 {
   scene s = begin();
   collision_sheet(&s, 0, (sbf_vec3){0, 0.4f, 0}, 1, CELLS, false);
@@ -48,7 +48,7 @@ END_TEST
 
 /* Nor of coarser cloth and of thicker one, in the middle and beside it, from up to 10 m: what springs throw
  * back under the ball is faster in a tick than it was before. (Points were up to 42 mm inside.) */
-START_TEST(no_point_goes_into_a_ball)
+START_TEST(no_point_enters_a_ball)
 {
   static const uint32_t cells[3] = {6, 12, CELLS};
   static const float thicknesses[3] = {0, 0.002f, 0.02f}, heights[3] = {0.1f, 2, 10};
@@ -78,7 +78,7 @@ END_TEST
 
 /* A ball of 5 cm at 100 m/s, 1.67 m a tick, through a sheet of 4 cm cells held at its rim: the sheet goes
  * along with it, no point of it is passed. */
-START_TEST(a_fast_ball_takes_a_sheet_along)
+START_TEST(a_fast_ball_carries_a_sheet_along)
 {
   scene s = begin();
   collision_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, CELLS, true);
@@ -137,7 +137,7 @@ static scene plate_on(double degrees, float friction, sbr_shape **shape) {
 }
 
 /* atan 0.5 = 26.565 degrees, a quarter of a degree either way. */
-START_TEST(friction_holds_to_its_angle)
+START_TEST(bodies_stick_up_to_the_friction_angle)
 {
   const double degrees[2] = {26.315, 26.815};
   for (int i = 0; i < 2; i++) {
@@ -188,7 +188,7 @@ START_TEST(bounces_rise_by_the_restitution)
 END_TEST
 
 /* What stands on a board goes with it; what does not meet it does not. */
-START_TEST(a_moving_board_carries_and_a_filter_lets_through)
+START_TEST(a_moving_board_carries_and_a_filter_disables_contact)
 {
   for (int contacts = 0; contacts < 2; contacts++) {
     scene s = begin();
@@ -219,7 +219,7 @@ START_TEST(a_moving_board_carries_and_a_filter_lets_through)
 END_TEST
 
 /* A point that begins inside finds its way out, gently. */
-START_TEST(what_is_inside_finds_its_way_out)
+START_TEST(points_inside_shapes_move_outside)
 {
   scene s = begin();
   const sbf_vec3 at = {0, -0.05f, 0};
@@ -243,7 +243,7 @@ START_TEST(what_is_inside_finds_its_way_out)
 END_TEST
 
 /* Sleeps on a shape, wakes when it goes. */
-START_TEST(a_sleeper_wakes_when_its_bed_goes)
+START_TEST(a_sleeping_body_wakes_when_its_support_is_removed)
 {
   scene s = begin();
   const sbf_vec3 at = {0, 0.011f, 0};
@@ -274,14 +274,14 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("shape_touch");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, cloth_lies_over_a_ball);
-  tcase_add_loop_test(tests, no_point_goes_into_a_ball, 0, 3);
-  tcase_add_test(tests, a_fast_ball_takes_a_sheet_along);
-  tcase_add_test(tests, friction_holds_to_its_angle);
+  tcase_add_test(tests, cloth_rests_on_a_ball);
+  tcase_add_loop_test(tests, no_point_enters_a_ball, 0, 3);
+  tcase_add_test(tests, a_fast_ball_carries_a_sheet_along);
+  tcase_add_test(tests, bodies_stick_up_to_the_friction_angle);
   tcase_add_test(tests, bounces_rise_by_the_restitution);
-  tcase_add_test(tests, a_moving_board_carries_and_a_filter_lets_through);
-  tcase_add_test(tests, what_is_inside_finds_its_way_out);
-  tcase_add_test(tests, a_sleeper_wakes_when_its_bed_goes);
+  tcase_add_test(tests, a_moving_board_carries_and_a_filter_disables_contact);
+  tcase_add_test(tests, points_inside_shapes_move_outside);
+  tcase_add_test(tests, a_sleeping_body_wakes_when_its_support_is_removed);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -21,7 +21,7 @@ static scene make(float young_pa, float poisson, sbf_scheme scheme) {
   return s;
 }
 
-/* ---- Energy of what falls ---- */
+/* ---- Energy of falling bodies ---- */
 
 static const struct {
   sbf_scheme scheme;
@@ -33,7 +33,7 @@ static const struct {
 enum { FALLS = 7 };
 
 /* Undamped, so that nothing hides what a scheme adds. Energies of explicit steps waver next to the limit. */
-START_TEST(what_falls_gains_no_energy)
+START_TEST(falling_bodies_gain_no_energy)
 {
   scene s = make(falls[_i].young_pa, falls[_i].poisson, falls[_i].scheme);
   scene_start(&s);
@@ -53,9 +53,9 @@ START_TEST(what_falls_gains_no_energy)
 }
 END_TEST
 
-/* ---- What is softened ---- */
+/* ---- Softening ---- */
 
-START_TEST(no_more_than_the_budget_asks_for)
+START_TEST(softening_stops_at_the_budget)
 {
   static const float moduli[] = {1e7f, 1e10f, 1e12f};
   scene s = make(moduli[_i], 0.48f, SBF_SCHEME_AUTOMATIC);
@@ -101,8 +101,8 @@ START_TEST(a_sliver_does_not_soften_its_neighbours)
 }
 END_TEST
 
-/* What is asked for is done, or refused. */
-START_TEST(chosen_schemes_keep_the_moduli)
+/* Requests are fulfilled or refused. */
+START_TEST(requested_schemes_keep_the_moduli)
 {
   scene s = make(1e12f, 0.3f, SBF_SCHEME_SYMPLECTIC);
   sbf_diagnostic error;
@@ -120,10 +120,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("softening");
   TCase *c = tcase_create("softening");
-  tcase_add_loop_test(c, what_falls_gains_no_energy, 0, FALLS);
-  tcase_add_loop_test(c, no_more_than_the_budget_asks_for, 0, 3);
+  tcase_add_loop_test(c, falling_bodies_gain_no_energy, 0, FALLS);
+  tcase_add_loop_test(c, softening_stops_at_the_budget, 0, 3);
   tcase_add_test(c, a_sliver_does_not_soften_its_neighbours);
-  tcase_add_test(c, chosen_schemes_keep_the_moduli);
+  tcase_add_test(c, requested_schemes_keep_the_moduli);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -109,7 +109,7 @@ START_TEST(free_fall_keeps_the_shape_anywhere)
 }
 END_TEST
 
-/* Where the points of a bar that was bent and let go are after a tenth of a second. */
+/* Positions of the points of a bent and released bar after a tenth of a second. */
 static void swing(sbf_scheme scheme, uint32_t substeps, sbf_vec3 *positions) {
   begin(5, 1000, 1e5f, 0.3f, true);
   start(scheme, substeps, (sbf_vec3){0, 0, 0});

@@ -66,7 +66,7 @@ START_TEST(strains_stay_within_their_limits)
 }
 END_TEST
 
-START_TEST(limits_keep_momentum)
+START_TEST(limits_conserve_momentum)
 {
   begin(5, 2e4f, false, (sbf_vec3){0, 0, 0});
   attributes()->strain_max = 0.05f, attributes()->strain_min = -0.05f;
@@ -128,14 +128,14 @@ START_TEST(yield_flows_as_specified)
   ck_assert_uint_ne(sbr_world_get_state_hash(s.world), hash);
   ck_assert_float_lt(sbr_character_get_body_health(s.world, s.character, 0).max_strain, 1e-5f);
   for (uint32_t i = 0; i < 4; i++)
-    sbri_positions(c)[i].x *= 1.3f; /* the rest shape is that of before again */
+    sbri_positions(c)[i].x *= 1.3f; /* the rest shape is the original one again */
   ck_assert_float_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).max_strain, 0.3f, 1e-4f);
   scene_free(&s);
 }
 END_TEST
 
 /* A bar that hangs by its weight and creeps stays longer than it was once the weight is gone. */
-START_TEST(what_has_yielded_keeps_its_shape)
+START_TEST(yielded_bodies_keep_their_shape)
 {
   float lengths[2];
   for (int n = 0; n < 2; n++) {
@@ -159,7 +159,7 @@ START_TEST(what_has_yielded_keeps_its_shape)
 END_TEST
 
 /* The half that a weight map makes stronger does not yield. */
-START_TEST(weight_maps_say_where)
+START_TEST(weight_maps_select_where_limits_act)
 {
   begin(10, 1e5f, false, (sbf_vec3){0, 0, 0});
   attributes()->yield_strain = 0.02f, attributes()->yield_flow = 50;
@@ -191,10 +191,10 @@ int main(void) {
   Suite *suite = suite_create("solid_limits");
   TCase *c = tcase_create("solid_limits");
   tcase_add_loop_test(c, strains_stay_within_their_limits, 0, 3);
-  tcase_add_test(c, limits_keep_momentum);
+  tcase_add_test(c, limits_conserve_momentum);
   tcase_add_loop_test(c, yield_flows_as_specified, 0, 4);
-  tcase_add_loop_test(c, what_has_yielded_keeps_its_shape, 0, 3);
-  tcase_add_test(c, weight_maps_say_where);
+  tcase_add_loop_test(c, yielded_bodies_keep_their_shape, 0, 3);
+  tcase_add_test(c, weight_maps_select_where_limits_act);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

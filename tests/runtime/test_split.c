@@ -196,7 +196,7 @@ START_TEST(the_skin_opens_and_follows)
   uint32_t open = 0;
   for (uint32_t q = 0; q < QUADS; q++) {
     open += torn[q];
-    for (uint32_t k = 0; k < 4 && !torn[q]; k++) { /* what is left is not stretched over the gap */
+    for (uint32_t k = 0; k < 4 && !torn[q]; k++) { /* remaining polygons do not span the gap */
       uint32_t a = mesh->polygon_points.at[4 * q + k], b = mesh->polygon_points.at[4 * q + (k + 1) % 4];
       double now = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[a]), sbfi_d3_of(positions[b])));
       double rest =
@@ -233,7 +233,7 @@ START_TEST(insufficient_storage_is_reported)
 }
 END_TEST
 
-START_TEST(a_snapshot_holds_the_tear)
+START_TEST(a_snapshot_stores_the_tear)
 {
   begin(schemes[_i], 0);
   scene_ticks(&s, 5);
@@ -253,7 +253,7 @@ START_TEST(a_snapshot_holds_the_tear)
 }
 END_TEST
 
-START_TEST(every_width_gives_the_same_bits)
+START_TEST(every_lane_width_gives_the_same_bits)
 {
   uint64_t hashes[2];
   for (int n = 0; n < 2; n++) {
@@ -282,8 +282,8 @@ int main(void) {
   tcase_add_loop_test(c, a_bar_tears_in_two_where_it_is_weakest, 0, 3);
   tcase_add_test(c, the_skin_opens_and_follows);
   tcase_add_test(c, insufficient_storage_is_reported);
-  tcase_add_loop_test(c, a_snapshot_holds_the_tear, 0, 3);
-  tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 3);
+  tcase_add_loop_test(c, a_snapshot_stores_the_tear, 0, 3);
+  tcase_add_loop_test(c, every_lane_width_gives_the_same_bits, 0, 3);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -153,8 +153,8 @@ START_TEST(a_point_between_two_halves_splits)
 }
 END_TEST
 
-/* A rope hangs on itself at each of its points, and a spring alone holds what it holds. */
-START_TEST(what_never_hung_together_stays)
+/* A rope is connected to itself at each of its points, and single springs carry the load. */
+START_TEST(parts_never_connected_stay_separate)
 {
   enum { LINKS = 8 };
   s = scene_begin();
@@ -174,7 +174,7 @@ START_TEST(what_never_hung_together_stays)
 }
 END_TEST
 
-START_TEST(a_snapshot_holds_the_split)
+START_TEST(a_snapshot_stores_the_split)
 {
   begin(schemes[_i], 0);
   scene_ticks(&s, 2);
@@ -196,7 +196,7 @@ START_TEST(a_snapshot_holds_the_split)
 }
 END_TEST
 
-START_TEST(every_width_gives_the_same_bits)
+START_TEST(every_lane_width_gives_the_same_bits)
 {
   uint64_t hashes[2];
   for (int n = 0; n < 2; n++) {
@@ -234,7 +234,7 @@ START_TEST(insufficient_storage_is_reported)
 END_TEST
 
 /* Two pinned points and a spring between them, and a third on a goal spring, which does not tear. */
-START_TEST(where_nothing_can_tear_no_room_is_kept)
+START_TEST(untearable_bodies_reserve_no_storage)
 {
   s = scene_begin();
   const sbf_vec3 at[3] = {{0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
@@ -271,11 +271,11 @@ int main(void) {
   Suite *suite = suite_create("split_springs");
   TCase *c = tcase_create("split_springs");
   tcase_add_loop_test(c, a_point_between_two_halves_splits, 0, 3);
-  tcase_add_loop_test(c, what_never_hung_together_stays, 0, 3);
-  tcase_add_loop_test(c, a_snapshot_holds_the_split, 0, 3);
-  tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 3);
+  tcase_add_loop_test(c, parts_never_connected_stay_separate, 0, 3);
+  tcase_add_loop_test(c, a_snapshot_stores_the_split, 0, 3);
+  tcase_add_loop_test(c, every_lane_width_gives_the_same_bits, 0, 3);
   tcase_add_test(c, insufficient_storage_is_reported);
-  tcase_add_test(c, where_nothing_can_tear_no_room_is_kept);
+  tcase_add_test(c, untearable_bodies_reserve_no_storage);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -60,8 +60,8 @@ START_TEST(a_limit_is_a_wall)
 }
 END_TEST
 
-/* What is within its limits moves as if it had none; what rests at one does not move. */
-START_TEST(a_limit_touches_nothing_within_it)
+/* Springs within their limits move as without limits; springs at rest at a limit do not move. */
+START_TEST(a_limit_changes_nothing_within_its_bound)
 {
   uint64_t hashes[2];
   for (int k = 0; k < 2; k++) {
@@ -76,7 +76,7 @@ START_TEST(a_limit_touches_nothing_within_it)
 }
 END_TEST
 
-START_TEST(a_limit_keeps_momentum)
+START_TEST(a_limit_conserves_momentum)
 {
   scene s = scene_begin();
   const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -233,8 +233,8 @@ static Suite *suite(void) {
   Suite *s = suite_create("spring bounds");
   TCase *c = tcase_create("spring bounds");
   tcase_add_loop_test(c, a_limit_is_a_wall, 0, SCHEME_COUNT);
-  tcase_add_loop_test(c, a_limit_touches_nothing_within_it, 0, SCHEME_COUNT);
-  tcase_add_loop_test(c, a_limit_keeps_momentum, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, a_limit_changes_nothing_within_its_bound, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, a_limit_conserves_momentum, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_yielding_spring_flows, 0, SCHEME_COUNT);
   tcase_add_test(c, without_a_rate_nothing_flows);
   tcase_add_loop_test(c, a_torn_spring_stops_and_is_reported, 0, SCHEME_COUNT);

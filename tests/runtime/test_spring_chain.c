@@ -69,7 +69,7 @@ static sbf_vec3 end_of(const gait_stage *s, uint32_t bone) {
   return sbri_add_scaled(s->pose[bone].position, along(s, bone), LENGTH * s->input.scale);
 }
 
-START_TEST(it_rests_along_stiffness_and_gravity)
+START_TEST(a_chain_rests_along_stiffness_and_gravity)
 {
   for (size_t i = 0; i < sizeof TICKS_HZ / sizeof *TICKS_HZ; i++) {
     gait_stage s;
@@ -151,7 +151,7 @@ START_TEST(its_motion_does_not_depend_on_the_tick)
 }
 END_TEST
 
-START_TEST(a_larger_character_with_larger_accelerations_moves_alike)
+START_TEST(a_larger_character_with_larger_accelerations_moves_equally)
 {
   sbf_vec3 reference[RECORDED], at[RECORDED];
   spring_values twice = HAIR;
@@ -186,7 +186,7 @@ START_TEST(relative_to_a_center_its_motion_does_not_swing_it)
 }
 END_TEST
 
-/* Distance of a point from where a collider lets it be; below 0: it is where it may not be. */
+/* Signed distance of a point from the collider; below 0: penetration. */
 static float clearance_of(const sbf_chain_collider *c, sbf_vec3 p, float radius) {
   sbf_vec3 offset = sbri_sub(p, c->position), axis = sbri_sub(c->end, c->position);
   if (c->shape == SBF_CHAIN_COLLIDER_SHAPE_PLANE)
@@ -340,10 +340,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("spring_chain");
   TCase *all = tcase_create("all");
-  tcase_add_test(all, it_rests_along_stiffness_and_gravity);
+  tcase_add_test(all, a_chain_rests_along_stiffness_and_gravity);
   tcase_add_test(all, a_small_angle_swings_as_a_damped_oscillator);
   tcase_add_test(all, its_motion_does_not_depend_on_the_tick);
-  tcase_add_test(all, a_larger_character_with_larger_accelerations_moves_alike);
+  tcase_add_test(all, a_larger_character_with_larger_accelerations_moves_equally);
   tcase_add_test(all, relative_to_a_center_its_motion_does_not_swing_it);
   tcase_add_test(all, ends_stay_out_of_colliders_or_inside);
   tcase_add_test(all, an_end_in_the_middle_of_a_collider_stays_finite);

@@ -46,7 +46,7 @@ static void check(int scheme, const float *ratio, float tear_strain) {
   }
 }
 
-START_TEST(pressed_springs_have_their_own_stiffness)
+START_TEST(compressed_springs_have_their_own_stiffness)
 {
   static const float ratios[] = {0.25f, 1, 3};
   for (int r = 0; r < 3; r++) {
@@ -69,7 +69,7 @@ START_TEST(strings_only_pull)
 }
 END_TEST
 
-/* Springs that bear the body's weight where it was authored do so too where they are pressed. */
+/* Springs that support the body's weight in the authored shape also do so in compression. */
 START_TEST(a_weight_is_supported_by_contact_impulses)
 {
   static const float ratio = 0.25f;
@@ -86,7 +86,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("spring_forces");
   TCase *c = tcase_create("spring_forces");
-  tcase_add_loop_test(c, pressed_springs_have_their_own_stiffness, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, compressed_springs_have_their_own_stiffness, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, strings_only_pull, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_weight_is_supported_by_contact_impulses, 0, SCHEME_COUNT);
   suite_add_tcase(s, c);

@@ -60,7 +60,7 @@ static double expected(double t, double h) {
   return eased >= 0 ? 1 + eased : 1 / (1 - eased);
 }
 
-START_TEST(a_step_of_the_place_squashes_exactly_at_any_tick)
+START_TEST(a_step_of_position_squashes_exactly_at_any_tick)
 {
   static const int times_ms[] = {1, 4, 17, 33, 100, 250};
   for (size_t k = 0; k < sizeof times_ms / sizeof *times_ms; k++) {
@@ -83,7 +83,7 @@ START_TEST(a_step_of_the_place_squashes_exactly_at_any_tick)
 }
 END_TEST
 
-START_TEST(what_hangs_on_it_goes_along_and_nothing_else)
+START_TEST(only_children_of_the_bone_follow_it)
 {
   gait_stage s;
   begin(&s, 1.0f / 60, 1);
@@ -97,7 +97,7 @@ START_TEST(what_hangs_on_it_goes_along_and_nothing_else)
 }
 END_TEST
 
-START_TEST(a_larger_copy_is_squashed_alike_and_a_placed_one_is_not)
+START_TEST(a_larger_copy_is_squashed_equally_and_a_teleported_one_is_not)
 {
   gait_stage small, large;
   begin(&small, 1.0f / 60, 1), begin(&large, 1.0f / 60, 3);
@@ -199,9 +199,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("squash");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_step_of_the_place_squashes_exactly_at_any_tick);
-  tcase_add_test(tests, what_hangs_on_it_goes_along_and_nothing_else);
-  tcase_add_test(tests, a_larger_copy_is_squashed_alike_and_a_placed_one_is_not);
+  tcase_add_test(tests, a_step_of_position_squashes_exactly_at_any_tick);
+  tcase_add_test(tests, only_children_of_the_bone_follow_it);
+  tcase_add_test(tests, a_larger_copy_is_squashed_equally_and_a_teleported_one_is_not);
   tcase_add_test(tests, another_origin_changes_nothing);
   tcase_add_test(tests, volume_is_kept);
   tcase_add_test(tests, a_host_reads_scales_at_every_frame_rate);

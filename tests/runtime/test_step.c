@@ -62,7 +62,7 @@ static scene walker(void) {
   return s;
 }
 
-START_TEST(numbers_that_are_none_are_recovered_from)
+START_TEST(invalid_numbers_are_recovered_from)
 {
   scene s = walker();
   scene_ticks(&s, 10);
@@ -78,9 +78,9 @@ START_TEST(numbers_that_are_none_are_recovered_from)
 }
 END_TEST
 
-START_TEST(a_body_inside_out_comes_back)
+START_TEST(an_inverted_body_recovers)
 {
-  scene s = scene_begin(); /* nothing holds it: its springs are at rest inside out as well */
+  scene s = scene_begin(); /* no pins: its springs are also at rest when inverted */
   scene_bone(&s, (sbf_vec3){0, 0.5f, 0});
   scene_section(&s, 0, (sbf_vec3){0, 0.5f, 0}, (sbf_vec3){0.3f, 0.2f, 0.5f}, 2);
   s.model_options.free = true;
@@ -99,7 +99,7 @@ START_TEST(a_body_inside_out_comes_back)
 }
 END_TEST
 
-START_TEST(bones_that_jump_take_their_bodies_along)
+START_TEST(bodies_follow_bones_that_jump)
 {
   scene s = walker();
   scene_ticks(&s, 10);
@@ -137,9 +137,9 @@ static Suite *suite(void) {
   Suite *s = suite_create("step");
   TCase *c = tcase_create("step");
   tcase_add_loop_test(c, any_number_of_threads_gives_the_same_bits, 0, SCHEME_COUNT);
-  tcase_add_test(c, numbers_that_are_none_are_recovered_from);
-  tcase_add_test(c, a_body_inside_out_comes_back);
-  tcase_add_test(c, bones_that_jump_take_their_bodies_along);
+  tcase_add_test(c, invalid_numbers_are_recovered_from);
+  tcase_add_test(c, an_inverted_body_recovers);
+  tcase_add_test(c, bodies_follow_bones_that_jump);
   tcase_add_test(c, a_frame_of_a_quarter_second_is_survived);
   suite_add_tcase(s, c);
   return s;

@@ -30,7 +30,7 @@ static double growth(scene *s) {
   return h.finite && h.recoveries == 0 ? (h.elastic_j + h.kinetic_j) / before : INFINITY;
 }
 
-START_TEST(as_many_as_are_needed_and_hardly_more)
+START_TEST(substeps_are_sufficient_and_hardly_more)
 {
   const float moduli[] = {2e4f, 3e5f, 2e6f};
   for (int i = 0; i < 3; i++) {
@@ -80,7 +80,7 @@ START_TEST(stretched_springs_need_more_up_to_a_bound)
 END_TEST
 
 /* Numbers beyond what an integer holds are not turned into one: each machine would make another of it. */
-START_TEST(what_is_stiff_beyond_measure_has_a_bound)
+START_TEST(extremely_stiff_bodies_have_bounded_substeps)
 {
   const double frequencies[] = {1e9, 1e30, INFINITY, (double)NAN};
   uint32_t bound = 0;
@@ -120,7 +120,7 @@ START_TEST(a_body_thrown_into_a_knot_does_not_burst)
 }
 END_TEST
 
-START_TEST(what_is_too_stiff_is_refused)
+START_TEST(too_stiff_bodies_are_refused)
 {
   scene s = section(1e12f, 0);
   sbf_diagnostic error;
@@ -135,12 +135,12 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("substeps");
   TCase *c = tcase_create("substeps");
-  tcase_add_test(c, as_many_as_are_needed_and_hardly_more);
+  tcase_add_test(c, substeps_are_sufficient_and_hardly_more);
   tcase_add_test(c, damped_springs_need_more);
   tcase_add_test(c, stretched_springs_need_more_up_to_a_bound);
-  tcase_add_test(c, what_is_stiff_beyond_measure_has_a_bound);
+  tcase_add_test(c, extremely_stiff_bodies_have_bounded_substeps);
   tcase_add_test(c, a_body_thrown_into_a_knot_does_not_burst);
-  tcase_add_test(c, what_is_too_stiff_is_refused);
+  tcase_add_test(c, too_stiff_bodies_are_refused);
   suite_add_tcase(s, c);
   return s;
 }

@@ -21,7 +21,7 @@ static void begin(gait_stage *stage, float ahead) {
   sbri_gait_reset(&stage->rig, stage->state, &stage->input, sbri_vec3(0, 0, 0), 0);
 }
 
-START_TEST(a_balanced_rest_pose_stands_as_it_is)
+START_TEST(a_balanced_rest_pose_is_unchanged)
 {
   gait_stage stage;
   begin(&stage, 0.02f);
@@ -31,7 +31,7 @@ START_TEST(a_balanced_rest_pose_stands_as_it_is)
 }
 END_TEST
 
-START_TEST(one_that_would_fall_stands_over_its_feet_and_stays_there)
+START_TEST(an_unbalanced_character_moves_over_its_feet_and_stays)
 {
   gait_stage stage;
   begin(&stage, 1);
@@ -54,8 +54,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("support");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_balanced_rest_pose_stands_as_it_is);
-  tcase_add_test(tests, one_that_would_fall_stands_over_its_feet_and_stays_there);
+  tcase_add_test(tests, a_balanced_rest_pose_is_unchanged);
+  tcase_add_test(tests, an_unbalanced_character_moves_over_its_feet_and_stays);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

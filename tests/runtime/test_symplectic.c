@@ -175,7 +175,7 @@ START_TEST(a_hanging_chain_stretches_by_its_weight)
 }
 END_TEST
 
-/* The same chain let go from level: no energy may come of it, and its links stay together. */
+/* The same chain released from level: it gains no energy, and its links stay connected. */
 START_TEST(a_pendulum_chain_swings_without_gain)
 {
   enum { LINKS = 10 };
@@ -221,7 +221,7 @@ START_TEST(damping_follows_its_ratio)
 }
 END_TEST
 
-START_TEST(springs_damp_their_own_stretching)
+START_TEST(springs_damp_their_rate_of_stretch)
 {
   scene s = oscillator(2, 50, 1);
   scene_body(&s, 0)->attributes.stiffness_damping = 0.04f; /* ratio beta w / 2 = 0.1 */
@@ -258,9 +258,9 @@ START_TEST(a_damped_body_in_free_flight_stays_at_rest)
 }
 END_TEST
 
-/* The bound that saves the exact speed is never below it: points that fly apart, all alike, or mostly alike.
+/* The bound on the speed is never below the exact speed: points that fly apart equally or almost equally.
  */
-START_TEST(the_bound_of_an_impact_s_speed_holds)
+START_TEST(the_bound_on_impact_speed_is_respected)
 {
   scene s = scene_begin();
   lattice_box box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 1, 1}, 2, 2, 2, 1000, 1e5f, 0.4f);
@@ -294,9 +294,9 @@ static Suite *suite(void) {
   tcase_add_test(c, a_hanging_chain_stretches_by_its_weight);
   tcase_add_test(c, a_pendulum_chain_swings_without_gain);
   tcase_add_test(c, damping_follows_its_ratio);
-  tcase_add_test(c, springs_damp_their_own_stretching);
+  tcase_add_test(c, springs_damp_their_rate_of_stretch);
   tcase_add_test(c, a_damped_body_in_free_flight_stays_at_rest);
-  tcase_add_test(c, the_bound_of_an_impact_s_speed_holds);
+  tcase_add_test(c, the_bound_on_impact_speed_is_respected);
   suite_add_tcase(s, c);
   return s;
 }

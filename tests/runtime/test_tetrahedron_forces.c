@@ -131,7 +131,7 @@ START_TEST(damping_is_the_second_derivative_times_the_velocity)
 }
 END_TEST
 
-START_TEST(damping_leaves_turning_alone)
+START_TEST(damping_does_not_slow_rotation)
 {
   /* Deformed and spinning as a rigid body: the same forces as at rest. In any motion it takes energy. */
   begin(beta);
@@ -165,7 +165,7 @@ START_TEST(damping_leaves_turning_alone)
 }
 END_TEST
 
-START_TEST(what_is_watched)
+START_TEST(the_watched_strains_are_recorded)
 {
   begin(0);
   sbri_tetrahedron_watch watch;
@@ -173,7 +173,7 @@ START_TEST(what_is_watched)
   sbri_compute_tetrahedron_forces(&tick, &watch);
   ck_assert_float_eq_tol(sbri_watch_stiffening(&watch), 1, 1e-4f);
   ck_assert_float_eq_tol(sbri_watch_min_ratio(&watch), 1, 1e-4f);
-  /* Grown alike by a half: cof F grows by 2.25, and lambda (J - 1) - mu beyond the mu of rest. */
+  /* Uniformly scaled by 1.5: cof F grows by 2.25, and lambda (J - 1) - mu beyond the mu of rest. */
   for (uint32_t i = 0; i < tick.island->slot_count; i++)
     positions[i] = (sbri_point){1.5f * positions[i].x, 1.5f * positions[i].y, 1.5f * positions[i].z, 0};
   sbfi_lame lame = sbfi_lame_of(5e4, 0.4);
@@ -243,7 +243,7 @@ static float tip_height(void) {
   return scene_point(&s, 0, lattice_box_point(&box, box.cells[0], 0, 0)).y;
 }
 
-START_TEST(a_beam_comes_to_rest_where_the_statics_say)
+START_TEST(a_beam_comes_to_rest_at_its_static_deflection)
 {
   begin_beam(10, 1, (sbf_vec3){0, -9.81f, 0});
   sbf_spring_network network = lattice_box_network(&box);
@@ -271,7 +271,7 @@ START_TEST(a_beam_comes_to_rest_where_the_statics_say)
 }
 END_TEST
 
-START_TEST(a_beam_swings_at_its_lowest_frequency)
+START_TEST(a_beam_oscillates_at_its_lowest_frequency)
 {
   /* So weakly loaded that it stays linear; the mode itself is tested in tests/mechanics. */
   begin_beam(10, 0, (sbf_vec3){0, -0.02f, 0});
@@ -358,7 +358,7 @@ END_TEST
 
 /* Flattened to a plane, mirrored, thrown into a heap: no number is lost, and after a second the shape is
  * back, by itself or by being put there. */
-START_TEST(bad_starts_come_back)
+START_TEST(bad_starts_recover)
 {
   begin(0);
   sbr_world_destroy(s.world);
@@ -374,7 +374,7 @@ START_TEST(bad_starts_come_back)
 }
 END_TEST
 
-START_TEST(the_step_is_divided_anew_as_it_stiffens)
+START_TEST(substeps_increase_as_it_stiffens)
 {
   /* Softer than its weight by far: it stretches to more than twice its length, where the substeps of rest
    * would not do. */
@@ -401,7 +401,7 @@ START_TEST(the_step_is_divided_anew_as_it_stiffens)
 }
 END_TEST
 
-START_TEST(a_snapshot_holds_all_of_it)
+START_TEST(a_snapshot_stores_the_whole_state)
 {
   begin_beam(5, 0.2f, (sbf_vec3){0, -9.81f, 0});
   scene_ticks(&s, 20);
@@ -423,16 +423,16 @@ int main(void) {
   TCase *c = tcase_create("tetrahedron_forces");
   tcase_add_loop_test(c, forces_are_those_of_the_energy, 0, 2);
   tcase_add_test(c, damping_is_the_second_derivative_times_the_velocity);
-  tcase_add_test(c, damping_leaves_turning_alone);
-  tcase_add_test(c, what_is_watched);
+  tcase_add_test(c, damping_does_not_slow_rotation);
+  tcase_add_test(c, the_watched_strains_are_recorded);
   tcase_add_test(c, blocks_of_compressed_elements_are_marked);
-  tcase_add_test(c, a_beam_comes_to_rest_where_the_statics_say);
-  tcase_add_test(c, a_beam_swings_at_its_lowest_frequency);
+  tcase_add_test(c, a_beam_comes_to_rest_at_its_static_deflection);
+  tcase_add_test(c, a_beam_oscillates_at_its_lowest_frequency);
   tcase_add_test(c, energy_and_momentum_are_kept);
   tcase_add_test(c, far_from_the_world_s_origin_as_near);
-  tcase_add_loop_test(c, bad_starts_come_back, 0, 3);
-  tcase_add_test(c, the_step_is_divided_anew_as_it_stiffens);
-  tcase_add_test(c, a_snapshot_holds_all_of_it);
+  tcase_add_loop_test(c, bad_starts_recover, 0, 3);
+  tcase_add_test(c, substeps_increase_as_it_stiffens);
+  tcase_add_test(c, a_snapshot_stores_the_whole_state);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

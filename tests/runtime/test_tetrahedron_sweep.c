@@ -114,7 +114,7 @@ END_TEST
 
 /* ---- Bodies ---- */
 
-START_TEST(what_rests_stays)
+START_TEST(bodies_at_rest_stay)
 {
   begin(5, 1e6f, 0.45f, false, (sbf_vec3){0, 0, 0});
   s.model_options.substeps = 5; /* far from resolved */
@@ -143,7 +143,7 @@ static double exact_tip(void) {
 }
 
 /* The bias of docs/solvers.md: where a beam comes to rest, against the energy's least, by substeps. */
-START_TEST(a_beam_rests_near_where_the_statics_say)
+START_TEST(a_beam_rests_near_its_static_deflection)
 {
   static const struct {
     uint32_t substeps;
@@ -232,7 +232,7 @@ START_TEST(far_from_the_world_s_origin_as_near)
 END_TEST
 
 /* Its own damping, as of the energy's: a free bar that is stretched comes to rest without it never. */
-START_TEST(damping_of_its_own_takes_energy)
+START_TEST(its_damping_removes_energy)
 {
   double left[2];
   for (int n = 0; n < 2; n++) {
@@ -252,11 +252,11 @@ START_TEST(damping_of_its_own_takes_energy)
 }
 END_TEST
 
-/* ---- What is hard ---- */
+/* ---- Hard cases ---- */
 
 /* Flattened to a plane, mirrored, all in one place, thrown into a heap: no number is lost, and after a second
  * the shape is back, by itself or by being put there. */
-START_TEST(bad_starts_come_back)
+START_TEST(bad_starts_recover)
 {
   begin(5, 1e5f, 0.4f, false, (sbf_vec3){0, 0, 0});
   scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
@@ -300,13 +300,13 @@ int main(void) {
   TCase *c = tcase_create("tetrahedron_sweep");
   tcase_add_loop_test(c, a_short_step_follows_the_energy, 0, 3);
   tcase_add_loop_test(c, a_sliver_falls, 0, 8);
-  tcase_add_test(c, what_rests_stays);
-  tcase_add_loop_test(c, a_beam_rests_near_where_the_statics_say, 0, 4);
+  tcase_add_test(c, bodies_at_rest_stay);
+  tcase_add_loop_test(c, a_beam_rests_near_its_static_deflection, 0, 4);
   tcase_add_test(c, a_beam_swings_near_its_lowest_frequency);
   tcase_add_test(c, momentum_is_kept);
   tcase_add_test(c, far_from_the_world_s_origin_as_near);
-  tcase_add_test(c, damping_of_its_own_takes_energy);
-  tcase_add_loop_test(c, bad_starts_come_back, 0, 4);
+  tcase_add_test(c, its_damping_removes_energy);
+  tcase_add_loop_test(c, bad_starts_recover, 0, 4);
   tcase_add_loop_test(c, the_router_recovers_by_it, 0, 2);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -14,7 +14,7 @@ static float energy(sbf_quat q, sbf_vec3 angular_velocity) {
 /* About the middle axis, with a touch of another: it turns over, again and again, and neither gains nor
  * loses.
  */
-START_TEST(the_middle_axis_turns_over)
+START_TEST(rotation_about_the_middle_axis_flips)
 {
   sbf_quat q = {0, 0, 0, 1};
   sbf_vec3 angular_velocity = sbri_angular_momentum_from_velocity(&brick, q, sbri_vec3(0.01f, 10, 0));
@@ -63,7 +63,7 @@ static float next_fraction(uint32_t *seed) {
 }
 
 /* By lanes, of bodies that turn slowly and fast side by side, bit for bit what each does alone. */
-START_TEST(lanes_turn_as_each_alone)
+START_TEST(each_lane_rotates_as_alone)
 {
   uint32_t seed = 7;
   for (int round = 0; round < 200; round++) {
@@ -98,8 +98,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("free_turn");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, lanes_turn_as_each_alone);
-  tcase_add_test(tests, the_middle_axis_turns_over);
+  tcase_add_test(tests, each_lane_rotates_as_alone);
+  tcase_add_test(tests, rotation_about_the_middle_axis_flips);
   tcase_add_test(tests, a_symmetric_body_precesses);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -53,7 +53,7 @@ static float max_bend(const gait_stage *s) {
   return max;
 }
 
-START_TEST(at_rest_it_is_as_modelled)
+START_TEST(a_chain_at_rest_has_its_modelled_pose)
 {
   gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
@@ -64,7 +64,7 @@ START_TEST(at_rest_it_is_as_modelled)
 }
 END_TEST
 
-START_TEST(the_body_goes_where_the_head_went)
+START_TEST(the_body_follows_the_path_of_the_head)
 {
   gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
@@ -144,7 +144,7 @@ START_TEST(a_lagging_chain_keeps_its_direction_for_a_while)
 }
 END_TEST
 
-START_TEST(it_lies_on_the_ground)
+START_TEST(the_chain_rests_on_the_ground)
 {
   gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
@@ -153,14 +153,14 @@ START_TEST(it_lies_on_the_ground)
   for (int k = 0; k < BONES; k++) {
     sbf_vec3 p = s.pose[k].position, normal;
     float ground = (float)s.ground.height(&s.ground, (double)p.x, (double)p.z, &normal);
-    ck_assert_float_eq_tol(p.y - ground, 0.1f, 0.06f); /* its head is held level */
+    ck_assert_float_eq_tol(p.y - ground, 0.1f, 0.06f); /* its head stays level */
   }
   gait_stage_end(&s);
 }
 END_TEST
 
 /* A segment may be there for its number alone, without length. */
-START_TEST(empty_links_take_no_room)
+START_TEST(empty_links_have_no_length)
 {
   static const float spacing[BONES] = {0.2f, 0, 0.2f, 0, 0, 0.3f, 0.2f, 0.2f};
   gait_stage s;
@@ -183,7 +183,7 @@ START_TEST(empty_links_take_no_room)
 }
 END_TEST
 
-/* From the same bends, whatever the tick: exp(-damping t) of each is left. */
+/* From the same bends, at any tick: each decays by exp(-damping t). */
 START_TEST(straightening_takes_the_same_time_at_any_tick)
 {
   float left[3];
@@ -208,7 +208,7 @@ START_TEST(straightening_takes_the_same_time_at_any_tick)
 END_TEST
 
 /* Twice round, over where headings begin again, no bone turns faster than the head and its own bend do. */
-START_TEST(nothing_jumps_where_headings_begin_again)
+START_TEST(nothing_jumps_where_headings_wrap_around)
 {
   for (int kind = 0; kind < 2; kind++) {
     gait_stage s;
@@ -231,17 +231,17 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("trailing_chain");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, at_rest_it_is_as_modelled);
-  tcase_add_test(tests, the_body_goes_where_the_head_went);
+  tcase_add_test(tests, a_chain_at_rest_has_its_modelled_pose);
+  tcase_add_test(tests, the_body_follows_the_path_of_the_head);
   tcase_add_test(tests, the_bend_is_bounded);
   tcase_add_test(tests, damping_straightens_it_at_rest);
   tcase_add_test(tests, links_keep_the_requested_spacing);
   tcase_add_test(tests, a_swimmer_keeps_its_height);
   tcase_add_test(tests, a_lagging_chain_keeps_its_direction_for_a_while);
-  tcase_add_test(tests, it_lies_on_the_ground);
-  tcase_add_test(tests, empty_links_take_no_room);
+  tcase_add_test(tests, the_chain_rests_on_the_ground);
+  tcase_add_test(tests, empty_links_have_no_length);
   tcase_add_test(tests, straightening_takes_the_same_time_at_any_tick);
-  tcase_add_test(tests, nothing_jumps_where_headings_begin_again);
+  tcase_add_test(tests, nothing_jumps_where_headings_wrap_around);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -111,7 +111,7 @@ static float next_fraction(uint32_t *seed) {
 }
 
 /* However they are shoved, all lie still within 5 s. */
-START_TEST(all_that_fall_down_stairs_of_the_ground_come_to_rest)
+START_TEST(bodies_that_fall_down_stairs_come_to_rest)
 {
   bool whole = _i;
   uint32_t seed = 12345;
@@ -132,7 +132,7 @@ END_TEST
 
 /* A plank let go level over stairs tips until it lies along them, on their nosings alone: its corners are
  * over treads that it does not reach. */
-START_TEST(a_plank_lies_across_nosings)
+START_TEST(a_plank_rests_across_nosings)
 {
   bool down = _i;
   scene s = rigid_begin();
@@ -155,7 +155,7 @@ START_TEST(a_plank_lies_across_nosings)
 END_TEST
 
 /* A cube whose middle is beyond a nosing, over the step below, meets the nosing as it falls on it. */
-START_TEST(parts_over_a_nosing_touch_it)
+START_TEST(parts_over_a_nosing_are_in_contact)
 {
   const float half = 0.05f;
   scene s = rigid_begin();
@@ -184,7 +184,7 @@ END_TEST
 
 /* A post that bears a weight aside, whose common centre is 4 mm inside of the post's foot or beyond it: one
  * stands and sleeps, the other tips, however slowly it begins to. */
-START_TEST(what_tips_does_not_fall_asleep)
+START_TEST(tipping_bodies_do_not_fall_asleep)
 {
   bool tips = _i;
   scene s = rigid_begin();
@@ -209,7 +209,7 @@ END_TEST
 
 /* A limp leg without friction sleeps within 4 s, near where it hangs, where its flesh alone takes longer; a
  * push wakes it. */
-START_TEST(what_swings_out_sleeps)
+START_TEST(bodies_fall_asleep_after_swinging)
 {
   scene s = person();
   s.world_definition.sleep_after_s = _i ? 0.5 : 0;
@@ -268,11 +268,11 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, a_person_falls_down_stairs, 0, 6);
   tcase_add_loop_test(tests, a_person_falls_down_stairs_of_the_ground, 0, 4);
-  tcase_add_loop_test(tests, all_that_fall_down_stairs_of_the_ground_come_to_rest, 0, 2);
-  tcase_add_loop_test(tests, a_plank_lies_across_nosings, 0, 2);
-  tcase_add_test(tests, parts_over_a_nosing_touch_it);
-  tcase_add_loop_test(tests, what_tips_does_not_fall_asleep, 0, 2);
-  tcase_add_loop_test(tests, what_swings_out_sleeps, 0, 2);
+  tcase_add_loop_test(tests, bodies_that_fall_down_stairs_come_to_rest, 0, 2);
+  tcase_add_loop_test(tests, a_plank_rests_across_nosings, 0, 2);
+  tcase_add_test(tests, parts_over_a_nosing_are_in_contact);
+  tcase_add_loop_test(tests, tipping_bodies_do_not_fall_asleep, 0, 2);
+  tcase_add_loop_test(tests, bodies_fall_asleep_after_swinging, 0, 2);
   tcase_add_test(tests, threads_change_nothing);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

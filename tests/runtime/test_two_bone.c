@@ -41,7 +41,7 @@ START_TEST(reachable_targets_are_reached)
 }
 END_TEST
 
-START_TEST(knee_lies_towards_the_pole)
+START_TEST(the_knee_points_towards_the_pole)
 {
   uint32_t seed = 7;
   for (int i = 0; i < 5000; i++) {
@@ -139,7 +139,7 @@ int main(void) {
   Suite *suite = suite_create("two_bone");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, reachable_targets_are_reached);
-  tcase_add_test(tests, knee_lies_towards_the_pole);
+  tcase_add_test(tests, the_knee_points_towards_the_pole);
   tcase_add_test(tests, extension_is_eased_without_a_jump);
   tcase_add_test(tests, degenerate_input_stays_finite);
   tcase_add_test(tests, a_knee_keeps_its_limit_and_the_foot_its_rotation);

@@ -25,7 +25,7 @@ static scene section(void) {
   return s;
 }
 
-START_TEST(nothing_is_left_out_of_what_it_does)
+START_TEST(supported_features_are_not_reported)
 {
   scene s = section();
   scene_body(&s, 0)->attributes.pressure_mode = SBF_PRESSURE_MODE_VOLUME;
@@ -72,7 +72,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("left out");
   TCase *c = tcase_create("left out");
-  tcase_add_test(c, nothing_is_left_out_of_what_it_does);
+  tcase_add_test(c, supported_features_are_not_reported);
   tcase_add_test(c, unsupported_parts_are_reported);
   suite_add_tcase(s, c);
   return s;

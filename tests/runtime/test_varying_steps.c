@@ -1,5 +1,5 @@
 /* Verlet's method without velocities gains without bound where its steps vary; the runtime's do not, as its
- * substeps divide a fixed tick whatever frames are. */
+ * substeps divide a fixed tick at any frame time. */
 #include <math.h>
 
 #include "harness.h"

@@ -77,7 +77,7 @@ END_TEST
 
 /* A body pressed to a third comes back slowly: each of a substep's four steps asks for a tenth of its volume,
  * and gains some more as its faces grow. */
-START_TEST(much_volume_comes_back_slowly)
+START_TEST(a_large_volume_error_is_corrected_slowly)
 {
   scene s = section(SBF_PRESSURE_MODE_VOLUME);
   s.model_options.free = true;
@@ -105,7 +105,7 @@ START_TEST(much_volume_comes_back_slowly)
 END_TEST
 
 /* A surface carried by other points than its own: the corners of a box around it. */
-START_TEST(embedded_surfaces_keep_theirs)
+START_TEST(embedded_surfaces_keep_their_volume)
 {
   scene s = section(SBF_PRESSURE_MODE_VOLUME);
   sbf_soft_body *body = scene_body(&s, 0);
@@ -154,8 +154,8 @@ static Suite *suite(void) {
   TCase *c = tcase_create("volume table");
   tcase_add_test(c, the_volume_is_kept_on_request);
   tcase_add_test(c, keeping_it_moves_no_body);
-  tcase_add_test(c, much_volume_comes_back_slowly);
-  tcase_add_test(c, embedded_surfaces_keep_theirs);
+  tcase_add_test(c, a_large_volume_error_is_corrected_slowly);
+  tcase_add_test(c, embedded_surfaces_keep_their_volume);
   suite_add_tcase(s, c);
   return s;
 }

@@ -44,7 +44,7 @@ static float head_angle(const gait_stage *s) {
   return sbri_quat_log(s->pose[HEAD].rotation).x;
 }
 
-START_TEST(poses_are_shown_by_the_distance_walked)
+START_TEST(poses_advance_with_the_distance_walked)
 {
   static const key keys[] = {{0.1f, 0, 0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
       {0.2f, 0, -0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
@@ -91,7 +91,7 @@ START_TEST(a_walk_adds_to_the_rest_pose)
 }
 END_TEST
 
-START_TEST(what_goes_back_goes_back_in_its_walk)
+START_TEST(walking_backward_plays_the_walk_in_reverse)
 {
   static const key keys[] = {{0.1f, 0, 0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
       {0.3f, 0, -0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
@@ -228,9 +228,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("walk_poses");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, poses_are_shown_by_the_distance_walked);
+  tcase_add_test(tests, poses_advance_with_the_distance_walked);
   tcase_add_test(tests, a_walk_adds_to_the_rest_pose);
-  tcase_add_test(tests, what_goes_back_goes_back_in_its_walk);
+  tcase_add_test(tests, walking_backward_plays_the_walk_in_reverse);
   tcase_add_test(tests, the_second_half_is_the_mirror_image_of_the_first);
   tcase_add_test(tests, a_walk_becomes_a_run);
   tcase_add_test(tests, a_mirrored_walk_keeps_step_with_the_feet);

@@ -55,7 +55,7 @@ static void advance(scene *s, tally of[KINDS]) {
 
 /* Two sheets hang over a ball, askew on each other: points of each lie on the other, and their rims cross.
  * Nothing that pushed is new in the next tick. */
-START_TEST(what_pushed_is_known_again)
+START_TEST(contacts_are_matched_in_the_next_tick)
 {
   scene s = rigid_begin();
   scene_bodies(&s, 2);
@@ -116,7 +116,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("warm start");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, what_pushed_is_known_again);
+  tcase_add_test(tests, contacts_are_matched_in_the_next_tick);
   tcase_add_test(tests, cached_contacts_follow_by_body_ids);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

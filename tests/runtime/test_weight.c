@@ -63,7 +63,7 @@ static double expected(double t, double h) {
   return limit * lag / (limit + fabs(lag));
 }
 
-START_TEST(a_step_of_the_place_sinks_and_leans_it_exactly_at_any_tick)
+START_TEST(a_step_of_position_sinks_and_leans_it_exactly_at_any_tick)
 {
   static const int times_ms[] = {1, 4, 17, 33, 100, 250};
   static const sbf_vec3 directions[] = {{0, 1, 0}, {0, 0, 1}, {0.6f, 0, -0.8f}};
@@ -94,7 +94,7 @@ START_TEST(a_step_of_the_place_sinks_and_leans_it_exactly_at_any_tick)
 }
 END_TEST
 
-START_TEST(what_hangs_on_it_goes_along_and_nothing_else)
+START_TEST(only_children_of_the_bone_follow_it)
 {
   gait_stage s;
   begin(&s, sbri_vec3(0, 0.6f, 0.8f), 1.0f / 60, 1);
@@ -111,7 +111,7 @@ START_TEST(what_hangs_on_it_goes_along_and_nothing_else)
 }
 END_TEST
 
-START_TEST(a_larger_copy_moves_alike_and_a_placed_one_does_not)
+START_TEST(a_larger_copy_moves_equally_and_a_teleported_one_does_not)
 {
   gait_stage small, large;
   sbf_vec3 direction = {0, 0.8f, 0.6f};
@@ -171,7 +171,7 @@ static float leans_ahead(const gait_stage *s, uint32_t body) {
   return sbri_world_to_body(s->state, sbri_rotate(rotation, sbri_vec3(0, 1, 0))).z;
 }
 
-START_TEST(a_body_lags_as_it_starts_and_dives_as_it_stops_and_its_feet_stay)
+START_TEST(a_body_lags_at_start_and_dives_at_stop_over_planted_feet)
 {
   gait_stage heavy, light;
   begin_walk(&heavy, true), begin_walk(&light, false);
@@ -199,7 +199,7 @@ START_TEST(a_body_lags_as_it_starts_and_dives_as_it_stops_and_its_feet_stay)
 END_TEST
 
 /* Through four turns and more, so that headings wrap; what has no legs moves as it is driven. */
-START_TEST(it_leans_alike_whichever_way_it_faces)
+START_TEST(it_leans_equally_in_every_heading)
 {
   gait_stage stages[2];
   float max = 0;
@@ -259,12 +259,12 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("weight");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, a_step_of_the_place_sinks_and_leans_it_exactly_at_any_tick);
-  tcase_add_test(tests, what_hangs_on_it_goes_along_and_nothing_else);
-  tcase_add_test(tests, a_larger_copy_moves_alike_and_a_placed_one_does_not);
+  tcase_add_test(tests, a_step_of_position_sinks_and_leans_it_exactly_at_any_tick);
+  tcase_add_test(tests, only_children_of_the_bone_follow_it);
+  tcase_add_test(tests, a_larger_copy_moves_equally_and_a_teleported_one_does_not);
   tcase_add_test(tests, another_origin_changes_nothing);
-  tcase_add_test(tests, a_body_lags_as_it_starts_and_dives_as_it_stops_and_its_feet_stay);
-  tcase_add_test(tests, it_leans_alike_whichever_way_it_faces);
+  tcase_add_test(tests, a_body_lags_at_start_and_dives_at_stop_over_planted_feet);
+  tcase_add_test(tests, it_leans_equally_in_every_heading);
   tcase_add_test(tests, every_frame_rate_shows_the_same_motion);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -82,7 +82,7 @@ START_TEST(a_full_world_returns_an_error)
 }
 END_TEST
 
-/* Counts what is asked of it. */
+/* Counts its calls. */
 static void *counting(void *user, void *memory, size_t old_size, size_t new_size) {
   harness_memory *m = user;
   return m->allocator.reallocate(m->allocator.user, memory, old_size, new_size);

@@ -162,7 +162,7 @@ static void handle(chance *c, scene *s) {
   float times = decades(c, -3, 4), seconds = decades(c, -3, 0);
   much = (sbf_vec3){times * much.x, times * much.y, times * much.z};
   uint32_t vertex = likely(c, 3) ? SBR_WHOLE_BODY : roll(c, 30);
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab hold = sbr_default_vertex_grab();
   hold.frequency_hz = between(c, 0, 100), hold.damping_ratio = between(c, 0, 10);
   sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   hold.target = (sbr_double3){o.x + (double)turn.x, o.y + (double)turn.y, o.z + (double)turn.z};
@@ -178,7 +178,7 @@ static void handle(chance *c, scene *s) {
     (void)sbr_character_apply_soft_force(s->world, s->character, 0, vertex, much, seconds, NULL);
     break;
   case 3:
-    (void)sbr_character_hold_vertex(s->world, s->character, 0, vertex, &hold, NULL);
+    (void)sbr_character_grab_vertex(s->world, s->character, 0, vertex, &hold, NULL);
     break;
   default:
     for (uint32_t i = 0; i < 30; i++) (void)sbr_character_release_vertex(s->world, s->character, 0, i);

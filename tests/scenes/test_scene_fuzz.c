@@ -15,7 +15,7 @@ static uint32_t number_of(const char *name, uint32_t otherwise) {
   return text ? (uint32_t)strtoul(text, NULL, 10) : otherwise;
 }
 
-START_TEST(no_scene_gives_what_is_no_number)
+START_TEST(no_scene_gives_invalid_numbers)
 {
   uint32_t first = number_of("SBFMT_SEED", 1000), count = number_of("SBFMT_SCENES", 600), made = 0;
   for (uint32_t seed = first; seed < first + count; seed++) {
@@ -33,7 +33,7 @@ int main(void) {
   Suite *s = suite_create("scene fuzz");
   TCase *c = tcase_create("scene fuzz");
   tcase_set_timeout(c, 3600);
-  tcase_add_test(c, no_scene_gives_what_is_no_number);
+  tcase_add_test(c, no_scene_gives_invalid_numbers);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

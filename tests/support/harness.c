@@ -14,7 +14,8 @@
 #endif
 
 #ifndef _WIN32
-/* Of one case. It is to end what hangs, on a machine however busy, a little before ctest ends the program. */
+/* Time limit of one case: stops hanging cases, also on busy machines, shortly before ctest stops the program.
+ */
 __attribute__((constructor)) static void set_timeout(void) {
   setenv("CK_DEFAULT_TIMEOUT", "800", 0);
 }

@@ -36,7 +36,7 @@ const char *harness_scratch(const char *name);
 char *harness_read(const char *path, size_t *size);
 bool harness_write(const char *path, const void *bytes, size_t size);
 
-/* Allocates until `allowed` calls have been served, then fails every one; counts what is still held. */
+/* Allocates until `allowed` calls have been served, then fails every one; counts the memory in use. */
 typedef struct harness_memory {
   sbf_allocator allocator;
   size_t allowed, calls, held_bytes;

@@ -1,4 +1,4 @@
-/* What a loaded asset promises (sbfmt/packed.h), found out anew: tests and fuzz targets alike ask here. */
+/* Checks the promises of a loaded asset (sbfmt/packed.h), for tests and fuzz targets. */
 #ifndef TEST_PROMISES_H
 #define TEST_PROMISES_H
 

@@ -67,7 +67,7 @@ typedef struct work {
   motion *bones;
   d3 *ours, *lbs;
   double *sums;
-  uint32_t *twins;     /* (count) first vertex in the same place and held alike */
+  uint32_t *twins;     /* (count) first vertex with the same position and weights */
   int32_t *alone;      /* (count) section that carries it all; -1: several */
   uint32_t *triangles; /* (3 x triangle_count) */
   uint32_t triangle_count;

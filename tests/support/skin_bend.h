@@ -11,7 +11,7 @@ typedef struct skin_bend {
   double crack;     /* farthest apart of two vertices that stand in one place at rest, in sizes */
   double seam_stretch;  /* greatest area of a triangle between sections, in areas at rest */
   double lbs_stretch;   /* the same of linear blend skinning */
-  uint32_t seam_count;  /* triangles of which the corners do not hang on one and the same section alone */
+  uint32_t seam_count;  /* triangles whose corners belong to different sections */
   uint32_t poses;       /* joints times axes times directions */
   uint32_t worse_poses; /* with more flips than linear blend skinning has in them */
   /* Triangles whose normal turned over against what its corners' bones turn it to. */

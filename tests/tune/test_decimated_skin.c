@@ -24,7 +24,7 @@ static sbf_asset *dense_limb(float radius) {
   return skinned_limb_make(&of);
 }
 
-/* 40,000 vertices become at most 2000, whatever the size, without holes and with each bone's region. */
+/* 40,000 vertices become at most 2000 at any size, without holes and with each bone's region. */
 START_TEST(a_dense_limb)
 {
   for (float radius = 0.1f; radius < 2; radius *= 3) {

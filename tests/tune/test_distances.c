@@ -37,7 +37,7 @@ START_TEST(each_measure_has_its_documented_value)
 }
 END_TEST
 
-START_TEST(equal_distances_and_none_have_one_value)
+START_TEST(equal_and_missing_distances_have_one_value)
 {
   tune_distances d;
   ck_assert(tune_distances_between(&is, &wanted, &d));
@@ -49,7 +49,7 @@ START_TEST(equal_distances_and_none_have_one_value)
 }
 END_TEST
 
-START_TEST(what_is_no_number_is_infinitely_far_off)
+START_TEST(invalid_numbers_are_infinitely_distant)
 {
   tune_distances d;
   for (uint32_t i = 0; i < 4; i++) is.positions[70 * i].z = NAN; /* more than one of a hundred */
@@ -58,7 +58,7 @@ START_TEST(what_is_no_number_is_infinitely_far_off)
 }
 END_TEST
 
-START_TEST(the_larger_of_each_is_taken)
+START_TEST(the_larger_of_each_is_used)
 {
   const tune_distances a = {1, 5, 6}, b = {2, 3, 9};
   tune_distances both = tune_distances_larger(&a, &b);
@@ -73,9 +73,9 @@ int main(void) {
   TCase *c = tcase_create("distances");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, each_measure_has_its_documented_value);
-  tcase_add_test(c, equal_distances_and_none_have_one_value);
-  tcase_add_test(c, what_is_no_number_is_infinitely_far_off);
-  tcase_add_test(c, the_larger_of_each_is_taken);
+  tcase_add_test(c, equal_and_missing_distances_have_one_value);
+  tcase_add_test(c, invalid_numbers_are_infinitely_distant);
+  tcase_add_test(c, the_larger_of_each_is_used);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -1,4 +1,4 @@
-/* What is chosen of a front, for each kind of goal, and the closest where nothing keeps it. */
+/* The choice from a front for each kind of goal, and the nearest entry if no entry meets it. */
 #include "tune/goal.h"
 
 #include "harness.h"
@@ -13,7 +13,7 @@ static uint32_t choose(double error_m, double budget_us, tune_verdict wanted) {
   return chosen;
 }
 
-START_TEST(an_error_takes_the_cheapest_that_keeps_it)
+START_TEST(an_error_goal_selects_the_cheapest_within_it)
 {
   ck_assert_uint_eq(choose(1, 0, TUNE_MET), 0);
   ck_assert_uint_eq(choose(0.02, 0, TUNE_MET), 1);
@@ -21,7 +21,7 @@ START_TEST(an_error_takes_the_cheapest_that_keeps_it)
 }
 END_TEST
 
-START_TEST(a_budget_takes_the_nearest_within_it)
+START_TEST(a_budget_selects_the_best_accuracy_within_it)
 {
   ck_assert_uint_eq(choose(0, 1000, TUNE_MET), 3);
   ck_assert_uint_eq(choose(0, 24, TUNE_MET), 2);
@@ -33,7 +33,7 @@ START_TEST(without_a_goal_it_is_the_nearest_of_all)
 { ck_assert_uint_eq(choose(0, 0, TUNE_MET), 3); }
 END_TEST
 
-START_TEST(both_are_kept_where_one_keeps_both)
+START_TEST(error_and_budget_are_kept_if_possible)
 {
   ck_assert_uint_eq(choose(0.02, 23, TUNE_MET), 2); /* the next on the front, quicker than its visits say */
   ck_assert_uint_eq(choose(0.02, 30, TUNE_MET), 1);
@@ -54,10 +54,10 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("goal");
   TCase *c = tcase_create("goal");
-  tcase_add_test(c, an_error_takes_the_cheapest_that_keeps_it);
-  tcase_add_test(c, a_budget_takes_the_nearest_within_it);
+  tcase_add_test(c, an_error_goal_selects_the_cheapest_within_it);
+  tcase_add_test(c, a_budget_selects_the_best_accuracy_within_it);
   tcase_add_test(c, without_a_goal_it_is_the_nearest_of_all);
-  tcase_add_test(c, both_are_kept_where_one_keeps_both);
+  tcase_add_test(c, error_and_budget_are_kept_if_possible);
   tcase_add_test(c, unreachable_targets_are_reported_with_the_closest);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -62,7 +62,7 @@ static void teardown(void) {
   tune_meshes_free(&meshes);
 }
 
-START_TEST(it_holds_by_drives_that_it_has_not_seen)
+START_TEST(promised_errors_hold_for_other_drives)
 {
   tune_comparison third;
   make_yard(&third, &unseen[_i]);
@@ -83,7 +83,7 @@ START_TEST(it_holds_by_drives_that_it_has_not_seen)
 }
 END_TEST
 
-START_TEST(it_is_a_quarter_more_than_either_drive_shows)
+START_TEST(promised_errors_exceed_measured_ones_by_a_quarter)
 {
   for (uint32_t i = 0; i < trials.front_count; i++) {
     const tune_trial *trial = &trials.at[trials.front[i]];
@@ -101,8 +101,8 @@ int main(void) {
   Suite *suite = suite_create("promised");
   TCase *c = tcase_create("promised");
   tcase_add_unchecked_fixture(c, setup, teardown);
-  tcase_add_test(c, it_is_a_quarter_more_than_either_drive_shows);
-  tcase_add_loop_test(c, it_holds_by_drives_that_it_has_not_seen, 0, sizeof unseen / sizeof *unseen);
+  tcase_add_test(c, promised_errors_exceed_measured_ones_by_a_quarter);
+  tcase_add_loop_test(c, promised_errors_hold_for_other_drives, 0, sizeof unseen / sizeof *unseen);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -21,11 +21,11 @@ static void add_finding(void *user, const sbf_diagnostic *d) {
   ck_assert_int_lt(length, (int)(sizeof found - used));
 }
 
-sbf_asset *rules_load(const char *inside, bool mendable) {
+sbf_asset *rules_load(const char *inside, bool repairable) {
   char text[1 << 14];
   sbf_asset *asset;
   sbf_diagnostic error = {0};
-  sbf_load_options options = {.mendable = mendable};
+  sbf_load_options options = {.repairable = repairable};
   int length = snprintf(text, sizeof text, "<sbf version=\"" SBF_FORMAT_VERSION "\">%s</sbf>", inside);
   ck_assert_int_lt(length, (int)sizeof text);
   sbf_status status = sbf_xml_load_memory(text, (size_t)length, &options, &asset, &error);

@@ -1,4 +1,4 @@
-/* Texts of the format, the rules applied to them, and what they find. */
+/* Texts of the format, the rules applied to them, and their findings. */
 #ifndef TEST_RULES_H
 #define TEST_RULES_H
 
@@ -10,8 +10,8 @@
  * report, a finding a line, as `CODE path` or `CODE path #index`; "" where nothing is wrong. */
 void rules_expect(const char *inside, const char *expected);
 
-/* Such a document, loaded; a failure ends the test. With `mendable` as sbf_fix may be given it. */
-sbf_asset *rules_load(const char *inside, bool mendable);
+/* Such a document, loaded; a failure ends the test. With `repairable` as sbf_fix may be given it. */
+sbf_asset *rules_load(const char *inside, bool repairable);
 
 /* What the rules report, in the form above. Valid until the next call. */
 const char *rules_findings(const sbf_asset *asset, const sbf_validate_options *options);

@@ -84,7 +84,7 @@ START_TEST(test_followers)
 }
 END_TEST
 
-START_TEST(test_what_else_swings)
+START_TEST(test_bones_of_other_chains)
 {
   rules_expect(BODY(TETRA LEVEL("model=\"jiggle\"", TETRA_POINTS, "<jiggle frequency=\"99\"/>")),
       "FOLLOWER_TOO_FAST /sbf/soft_body[1]/level[1]/jiggle");
@@ -97,4 +97,4 @@ START_TEST(test_what_else_swings)
 END_TEST
 
 RULES_MAIN("chain_rules", test_chains, test_springs, test_colliders, test_retarget_chains, test_masks,
-    test_followers, test_what_else_swings)
+    test_followers, test_bones_of_other_chains)

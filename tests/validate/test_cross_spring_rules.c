@@ -30,7 +30,7 @@ START_TEST(test_springs)
 }
 END_TEST
 
-START_TEST(test_held_ends)
+START_TEST(test_pinned_ends)
 {
 #define HELD(id, x)                                                                                          \
   "<soft_body id=\"" id "\" name=\"" id "\">" LEVEL(                                                         \
@@ -41,4 +41,4 @@ START_TEST(test_held_ends)
 }
 END_TEST
 
-RULES_MAIN("cross_spring_rules", test_good, test_levels_and_points, test_springs, test_held_ends)
+RULES_MAIN("cross_spring_rules", test_good, test_levels_and_points, test_springs, test_pinned_ends)

@@ -81,7 +81,7 @@ START_TEST(test_two_triangles)
 }
 END_TEST
 
-START_TEST(test_one_polygon_does_not_cross_itself)
+START_TEST(test_one_polygon_has_no_self_crossing)
 {
   setup();
   static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -115,7 +115,7 @@ static bool segment_pierces(const sbf_vec3 *t, sbf_vec3 from, sbf_vec3 to) {
   return h0 * h1 < 0;
 }
 
-START_TEST(test_as_many_as_by_trying_all)
+START_TEST(test_counts_equal_those_of_brute_force)
 {
   enum { TRIANGLES = 300 };
   static float positions[9 * TRIANGLES];
@@ -179,4 +179,5 @@ START_TEST(test_enclosed)
 END_TEST
 
 RULES_MAIN("crossing", test_closed_surfaces_do_not_cross, test_two_triangles,
-    test_one_polygon_does_not_cross_itself, test_as_many_as_by_trying_all, test_crowded, test_enclosed)
+    test_one_polygon_has_no_self_crossing, test_counts_equal_those_of_brute_force, test_crowded,
+    test_enclosed)

@@ -57,7 +57,7 @@ START_TEST(test_unseen_vertices)
 }
 END_TEST
 
-START_TEST(test_off_their_places)
+START_TEST(test_wrong_embedded_positions)
 {
   rules_expect(WORN(EMBEDDED(
                    SKIN, "", "0 0 0 0 1 1 1 1 2 2 2 2 3 2 3 3", "1 0 0 0 1 0 0 0 1 0 0 0 0.99 0.01 0 0", "")),
@@ -94,7 +94,7 @@ START_TEST(test_blends)
 }
 END_TEST
 
-START_TEST(test_two_bodies_share)
+START_TEST(test_two_bodies_blend)
 {
 #define SHARE(id, blends)                                                                                    \
   "<soft_body id=\"" id "\" name=\"" id "\">" TETRA LEVEL("", TETRA_POINTS,                                  \
@@ -118,5 +118,5 @@ START_TEST(test_own_surface)
 END_TEST
 
 RULES_MAIN("embedding_rules", test_good, test_sums, test_far_outside, test_bounds_of_weights,
-    test_unseen_vertices, test_off_their_places, test_vertices, test_blends, test_two_bodies_share,
+    test_unseen_vertices, test_wrong_embedded_positions, test_vertices, test_blends, test_two_bodies_blend,
     test_own_surface)

@@ -62,12 +62,12 @@ START_TEST(test_unrepairable_faults)
 }
 END_TEST
 
-/* A file is refused for what is beyond mending, and loads for what is not. */
+/* Files with repairable errors load for repair; others are refused. */
 START_TEST(test_loads_for_repair)
 {
   static const struct {
     const char *inside;
-    bool mendable;
+    bool repairable;
   } cases[] = {
       {BODY(LEVEL("model=\"tetrahedra\"", TETRA_POINTS, LATTICE("1 0 2 3", ""))), true},
       {BODY(LEVEL("model=\"tetrahedra\"", TETRA_POINTS, LATTICE("1 0 2 4", ""))), false},
@@ -76,13 +76,13 @@ START_TEST(test_loads_for_repair)
       {BODY(TETRA "<attributes restitution=\"2\"/>"), false},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-    for (int mendable = 0; mendable < 2; mendable++) {
+    for (int repairable = 0; repairable < 2; repairable++) {
       char text[4096];
       sbf_asset *asset;
-      sbf_load_options options = {.mendable = mendable};
+      sbf_load_options options = {.repairable = repairable};
       int length = snprintf(text, sizeof text, "<sbf version=\"1.0\">%s</sbf>", cases[i].inside);
       sbf_status status = sbf_xml_load_memory(text, (size_t)length, &options, &asset, NULL);
-      ck_assert_msg((status == SBF_OK) == (mendable && cases[i].mendable), "case %zu, %d", i, mendable);
+      ck_assert_msg((status == SBF_OK) == (repairable && cases[i].repairable), "case %zu, %d", i, repairable);
       sbf_asset_free(asset);
     }
 }

@@ -27,7 +27,7 @@ START_TEST(test_too_large)
 }
 END_TEST
 
-START_TEST(test_levels_that_do_not_go_together)
+START_TEST(test_inconsistent_levels)
 {
   const char *uneven =
       RENDER("") CARRIER("a", CARRIED("<blends>1 1 1 0.5</blends>") CARRIED("<blends>1 1 1 0.5</blends>"))
@@ -37,4 +37,4 @@ START_TEST(test_levels_that_do_not_go_together)
 }
 END_TEST
 
-RULES_MAIN("fix_blends", test_two_bodies, test_too_large, test_levels_that_do_not_go_together)
+RULES_MAIN("fix_blends", test_two_bodies, test_too_large, test_inconsistent_levels)

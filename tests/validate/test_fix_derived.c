@@ -18,7 +18,7 @@ static sbf_asset *fix(const sbf_asset *asset, bool rebuilt) {
   return fixed;
 }
 
-START_TEST(test_stale_parts_are_made_anew_with_their_settings)
+START_TEST(test_stale_parts_are_rebuilt_with_their_settings)
 {
   sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_NONE, .without_flexion = true};
   sbf_asset *built = build(ROOT_BONE SECTION(TETRA), &options);
@@ -36,7 +36,7 @@ START_TEST(test_stale_parts_are_made_anew_with_their_settings)
 }
 END_TEST
 
-START_TEST(test_lattices_are_made_anew_as_they_were)
+START_TEST(test_lattices_are_rebuilt_equally)
 {
   static const sbf_build_options kinds[] = {
       {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = 0.1 / 3, .without_calibration = true},
@@ -56,7 +56,7 @@ START_TEST(test_lattices_are_made_anew_as_they_were)
 }
 END_TEST
 
-START_TEST(test_what_others_made_stays)
+START_TEST(test_parts_of_other_tools_are_kept)
 {
   static const char *const texts[][2] = {{"another program", "interior=centroid"},
       {"sbfmt 9.9.9", "interior=centroid magic=true"}, {"sbfmt 0.1.0", "interior=unheard_of"},
@@ -99,6 +99,6 @@ START_TEST(test_without_build)
 }
 END_TEST
 
-RULES_MAIN("fix_derived", test_stale_parts_are_made_anew_with_their_settings,
-    test_lattices_are_made_anew_as_they_were, test_what_others_made_stays,
-    test_repairing_the_source_makes_derived_parts_stale, test_without_build)
+RULES_MAIN("fix_derived", test_stale_parts_are_rebuilt_with_their_settings, test_lattices_are_rebuilt_equally,
+    test_parts_of_other_tools_are_kept, test_repairing_the_source_makes_derived_parts_stale,
+    test_without_build)

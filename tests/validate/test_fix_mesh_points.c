@@ -6,7 +6,7 @@
       "</render_mesh>"
 #define EMBEDDED(more, points) BODY(TETRA LEVEL("", TETRA_POINTS, SPRINGS("", TETRA_EDGES, "") "<embedding render_mesh=\"r\">" more "<points>" points "</points><weights>"
 
-START_TEST(test_all_that_counts_points)
+START_TEST(test_all_lists_of_points)
 {
   sbf_asset *asset = rules_expect_fix(
       ROOT_BONE STRAY(
@@ -62,7 +62,7 @@ START_TEST(test_embeddings)
 }
 END_TEST
 
-START_TEST(test_broken_embeddings_leave_the_mesh_alone)
+START_TEST(test_broken_embeddings_do_not_change_the_mesh)
 {
   sbf_asset *asset = rules_load(STRAY("") EMBEDDED("<vertices>9</vertices>", "0 0 0 0") "1 0 0 0</weights></embedding>")), true), *fixed;
   ck_assert_int_eq(sbf_fix(asset, NULL, &fixed, NULL, NULL), SBF_OK);
@@ -72,5 +72,5 @@ START_TEST(test_broken_embeddings_leave_the_mesh_alone)
 }
 END_TEST
 
-RULES_MAIN("fix_mesh_points", test_all_that_counts_points, test_points_of_coarser_levels_are_used,
-    test_embeddings, test_broken_embeddings_leave_the_mesh_alone)
+RULES_MAIN("fix_mesh_points", test_all_lists_of_points, test_points_of_coarser_levels_are_used,
+    test_embeddings, test_broken_embeddings_do_not_change_the_mesh)

@@ -6,7 +6,7 @@
   SURFACE("0 0 0 9 9 9 0.2 0 0 0 0.2 0 8 8 8 0 0 0.2", "3 3 3 3", "0 3 2 0 2 5 0 5 3 2 3 5")                 \
   "<interior>0.05 0.05 0.05</interior>"
 
-START_TEST(test_all_that_counts_points)
+START_TEST(test_all_lists_of_points)
 {
   sbf_asset *asset = rules_expect_fix(
       ROOT_BONE SECTION(
@@ -65,5 +65,5 @@ START_TEST(test_points_without_polygons_stay)
 }
 END_TEST
 
-RULES_MAIN("fix_points", test_all_that_counts_points, test_levels_keep_their_points, test_named_points_stay,
+RULES_MAIN("fix_points", test_all_lists_of_points, test_levels_keep_their_points, test_named_points_stay,
     test_points_without_polygons_stay)

@@ -2,7 +2,7 @@
 
 #define ENDS "/sbf/soft_body[1]/level[1]/spring_set[1]/ends"
 
-START_TEST(test_springs_that_do_nothing)
+START_TEST(test_springs_without_effect)
 {
   sbf_asset *asset = rules_expect_fix(
       BODY(LEVEL("", TETRA_POINTS,
@@ -34,4 +34,4 @@ START_TEST(test_repeated)
 }
 END_TEST
 
-RULES_MAIN("fix_springs", test_springs_that_do_nothing, test_repeated)
+RULES_MAIN("fix_springs", test_springs_without_effect, test_repeated)

@@ -37,11 +37,12 @@ START_TEST(test_flat_and_repeated)
 }
 END_TEST
 
-START_TEST(test_repeated_ones_that_differ_stay)
+START_TEST(test_repeated_elements_that_differ_are_kept)
 {
   sbf_asset_free(rules_expect_fix(OF(TETRA_POINTS, "0 1 2 3 1 2 0 3", "<young_modulus>1 2</young_modulus>"),
       "", "TETRAHEDRON_DUPLICATE " PATH " #1"));
 }
 END_TEST
 
-RULES_MAIN("fix_tetrahedra", test_turned_round, test_flat_and_repeated, test_repeated_ones_that_differ_stay)
+RULES_MAIN(
+    "fix_tetrahedra", test_turned_round, test_flat_and_repeated, test_repeated_elements_that_differ_are_kept)

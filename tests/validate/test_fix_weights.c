@@ -19,7 +19,7 @@ START_TEST(test_skins)
 }
 END_TEST
 
-START_TEST(test_skins_that_say_nothing)
+START_TEST(test_skins_without_weights)
 { sbf_asset_free(rules_expect_fix(SKINNED("1 0 1 1"), "", "SKIN_SUM /sbf/render_mesh[1]/skin/weights #1")); }
 END_TEST
 
@@ -45,10 +45,10 @@ START_TEST(test_embeddings)
       "EMBEDDING_SUM /sbf/soft_body[1]/level[1]/embedding[1]/weights #3", "");
   ck_assert(asset->soft_bodies.at[0].levels.at[0].embeddings.at[0].weights.at[3].x == 1);
   sbf_asset_free(asset);
-  /* divided by their sum these would carry the vertex elsewhere: what they mean is not known */
+  /* divided by their sum these would move the vertex: their meaning is unknown */
   sbf_asset_free(rules_expect_fix(EMBEDDED("3 0 1 2" WEIGHTS "0.5 0 0.2 0"), "",
       "EMBEDDING_SUM /sbf/soft_body[1]/level[1]/embedding[1]/weights #3"));
 }
 END_TEST
 
-RULES_MAIN("fix_weights", test_skins, test_skins_that_say_nothing, test_pins, test_embeddings)
+RULES_MAIN("fix_weights", test_skins, test_skins_without_weights, test_pins, test_embeddings)

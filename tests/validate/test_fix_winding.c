@@ -14,7 +14,7 @@ START_TEST(test_one_polygon)
 }
 END_TEST
 
-START_TEST(test_outwards_though_most_face_inwards)
+START_TEST(test_orientation_against_the_majority)
 { sbf_asset_free(rules_expect_fix(OF("0 1 2 0 3 1 0 3 2 1 3 2"), "SURFACE_WINDING " PATH " #0", "")); }
 END_TEST
 
@@ -32,7 +32,7 @@ START_TEST(test_the_smaller_part_of_an_open_surface)
 }
 END_TEST
 
-START_TEST(test_a_hole_inside_stays_one)
+START_TEST(test_an_inner_cavity_is_kept)
 {
   /* a small tetrahedron inside, facing into itself, with one polygon wrong */
 #define HOLLOW(inner)                                                                                        \
@@ -84,6 +84,6 @@ START_TEST(test_any_of_a_cube)
 }
 END_TEST
 
-RULES_MAIN("fix_winding", test_one_polygon, test_outwards_though_most_face_inwards, test_inside_out,
-    test_the_smaller_part_of_an_open_surface, test_a_hole_inside_stays_one, test_one_sided,
+RULES_MAIN("fix_winding", test_one_polygon, test_orientation_against_the_majority, test_inside_out,
+    test_the_smaller_part_of_an_open_surface, test_an_inner_cavity_is_kept, test_one_sided,
     test_any_of_a_cube)

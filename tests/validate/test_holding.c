@@ -16,7 +16,7 @@ START_TEST(test_weight_within_its_bounds)
 }
 END_TEST
 
-START_TEST(test_the_strongest_pin_counts)
+START_TEST(test_the_strongest_pin_is_used)
 {
   sbf_asset *asset =
       rules_load(BODY(LEVEL("", TETRA_POINTS,
@@ -33,4 +33,4 @@ START_TEST(test_the_strongest_pin_counts)
 }
 END_TEST
 
-RULES_MAIN("holding", test_weight_within_its_bounds, test_the_strongest_pin_counts)
+RULES_MAIN("holding", test_weight_within_its_bounds, test_the_strongest_pin_is_used)

@@ -15,7 +15,7 @@ static void expect_near(double value, double expected) {
   ck_assert_msg(fabs(value - expected) < 1e-6, "%.9g, not %.9g", value, expected);
 }
 
-START_TEST(test_places)
+START_TEST(test_offsets_between_frames)
 {
   /* frame a is turned a quarter about +Z: its +X points up, and b lies 0.2 m below its origin */
   sbfi_joint_rest rest = rest_of(JOINT("six_dof", "body_a=\"up\"",
@@ -84,4 +84,5 @@ START_TEST(test_free_motions)
 }
 END_TEST
 
-RULES_MAIN("joint_rest", test_places, test_angles, test_ropes, test_the_world, test_free_motions)
+RULES_MAIN(
+    "joint_rest", test_offsets_between_frames, test_angles, test_ropes, test_the_world, test_free_motions)

@@ -50,7 +50,7 @@ START_TEST(test_pieces)
 }
 END_TEST
 
-START_TEST(test_cross_springs_hold)
+START_TEST(test_cross_springs_connect)
 {
   rules_expect("<soft_body id=\"a\" name=\"A\">" LEVEL("", "0 0 0 1 0 0 5 0 0 6 0 0",
                    SPRINGS("", "0 1 2 3",
@@ -84,4 +84,4 @@ START_TEST(test_order)
 END_TEST
 
 RULES_MAIN("level_rules", test_points_at_their_sources, test_interior_points_come_last, test_map,
-    test_loose_points, test_pieces, test_cross_springs_hold, test_masses, test_order)
+    test_loose_points, test_pieces, test_cross_springs_connect, test_masses, test_order)

@@ -15,7 +15,7 @@ END_TEST
 
 START_TEST(test_weight)
 {
-  /* 1000 kg/m^3 * 9.81 m/s^2 * 0.3464 m = 3398 Pa, ten times what the body bears at 340 Pa */
+  /* 1000 kg/m^3 * 9.81 m/s^2 * 0.3464 m = 3398 Pa, ten times the body's limit at 340 Pa */
   rules_expect(WITH("young_modulus=\"350\""), "");
   rules_expect(WITH("young_modulus=\"330\""), "BODY_COLLAPSES /sbf/soft_body[1]");
   rules_expect(WITH("young_modulus=\"330\" gravity_scale=\"0.5\""), "");

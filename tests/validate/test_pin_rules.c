@@ -55,7 +55,7 @@ START_TEST(test_offsets)
 }
 END_TEST
 
-START_TEST(test_sections_are_held)
+START_TEST(test_sections_are_pinned)
 {
   rules_expect(ROOT_BONE SECTION(TETRA TETRA_SPRINGS), "SECTION_UNHELD /sbf/soft_body[1]/level[1]");
   rules_expect(ROOT_BONE SECTION(TETRA LEVEL("model=\"jiggle\"", TETRA_POINTS, "<jiggle/>")), "");
@@ -80,4 +80,4 @@ START_TEST(test_attachments)
 END_TEST
 
 RULES_MAIN("pin_rules", test_good_pins, test_empty_and_weightless, test_bounds_and_frames, test_repeated,
-    test_offsets, test_sections_are_held, test_attachments)
+    test_offsets, test_sections_are_pinned, test_attachments)

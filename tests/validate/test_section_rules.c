@@ -1,6 +1,6 @@
 #include "rules.h"
 
-START_TEST(test_bodies_hang_on_something)
+START_TEST(test_bodies_are_attached)
 {
   rules_expect(BODY(TETRA), ""); /* without a skeleton there is nothing to hang on */
   rules_expect(ROOT_BONE BODY(TETRA), "SECTION_NO_BONE /sbf/soft_body[1]");
@@ -19,4 +19,4 @@ START_TEST(test_sections_are_near_their_bones)
 }
 END_TEST
 
-RULES_MAIN("section_rules", test_bodies_hang_on_something, test_sections_are_near_their_bones)
+RULES_MAIN("section_rules", test_bodies_are_attached, test_sections_are_near_their_bones)

@@ -36,7 +36,7 @@ START_TEST(test_lengths)
 }
 END_TEST
 
-START_TEST(test_held_points)
+START_TEST(test_pinned_points)
 {
 #define HELD(weights) BODY_OF(TETRA_POINTS, SPRINGS("", TETRA_EDGES, "") PINS("", "0 3", weights))
   rules_expect(HELD(""), "SPRING_INERT " ENDS " #2");
@@ -66,5 +66,5 @@ START_TEST(test_no_springs)
 { rules_expect(BODY_OF(TETRA_POINTS, ""), "LEVEL_EMPTY " LEVEL_PATH); }
 END_TEST
 
-RULES_MAIN("spring_rules", test_good_springs, test_ends, test_lengths, test_held_points, test_stiffness,
+RULES_MAIN("spring_rules", test_good_springs, test_ends, test_lengths, test_pinned_points, test_stiffness,
     test_beside_another_model, test_no_springs)

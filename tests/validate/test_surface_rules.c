@@ -6,7 +6,7 @@ START_TEST(test_a_closed_surface_is_good)
 {
   rules_expect(BODY(TETRA), "");
   rules_expect(
-      BODY(SURFACE(TETRA_POINTS, "3 3 3 3", "2 1 0 3 0 1 2 0 3 3 1 2")), ""); /* whatever the first corner */
+      BODY(SURFACE(TETRA_POINTS, "3 3 3 3", "2 1 0 3 0 1 2 0 3 3 1 2")), ""); /* with any first corner */
 }
 END_TEST
 
@@ -100,10 +100,10 @@ START_TEST(test_interior_points)
 }
 END_TEST
 
-START_TEST(test_nothing_at_all)
+START_TEST(test_empty_surfaces)
 { rules_expect(BODY(""), "SURFACE_EMPTY /sbf/soft_body[1]"); }
 END_TEST
 
 RULES_MAIN("surface_rules", test_a_closed_surface_is_good, test_open, test_a_sheet_may_be_open,
     test_nonmanifold, test_winding, test_unused_points, test_degenerate_polygons, test_seams, test_pieces,
-    test_crossing, test_interior_points, test_nothing_at_all)
+    test_crossing, test_interior_points, test_empty_surfaces)

@@ -82,7 +82,7 @@ START_TEST(test_memory_runs_out)
 }
 END_TEST
 
-/* Whatever the structure allows, rules must bear: every field filled with what comes. */
+/* Rules must accept everything that the structure allows: every field has random content. */
 START_TEST(test_any_sound_structure)
 {
   for (uint32_t seed = 1; seed < 40; seed++) {

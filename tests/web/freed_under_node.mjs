@@ -1,4 +1,4 @@
-// What is freed, in which order, how often and by whom, and what is told of wrong calls. Prints what came of it as JSON.
+// Freeing objects in any order, twice and by the collector, and errors of wrong calls. Prints the results as JSON.
 // Usage: node freed_under_node.mjs SBFMT.JS BUNDLE
 import { readFile } from 'node:fs/promises';
 import { pathToFileURL } from 'node:url';
@@ -30,7 +30,7 @@ const touch = ({ world, character }) => {
   character.bones();
 };
 
-// Worlds made anew, and files loaded anew, again and again: memory stays as it was after the first few.
+// Worlds created and files loaded again and again: memory does not grow after the first few.
 const size = () => sbfmt.calls.memory.buffer.byteLength;
 const again = (count) => {
   for (let i = 0; i < count; i++) {
@@ -47,7 +47,7 @@ const before = size();
 again(12);
 expect(size() === before, `12 loads later the library holds ${(size() - before) / MIB} MiB more`);
 
-// Twice is once, and what is in use is not taken away.
+// A second free does nothing, and objects in use stay.
 const all = made(), collider = all.world.collider(), replay = (() => {
   all.world.record();
   all.world.step(1 / 60);

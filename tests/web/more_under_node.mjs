@@ -42,7 +42,7 @@ for (const wrong of [{ ...plane, heights: [1] }, { ...plane, columns: 1 }, { ...
 climber.free();
 uphill.free();
 
-// Soft bodies: pushed, set in motion, held, let go; what is wrong is refused.
+// Soft bodies: impulses, velocities, grabs, releases; wrong calls are refused.
 const hands = sbfmt.world(), pushed = hands.add(model), soft = asset.softBodies.find((_, i) => pushed.softMotion(i).mass > 0)?.index ?? -1;
 expect(soft >= 0, 'no soft body is simulated');
 if (soft >= 0) {
@@ -52,12 +52,12 @@ if (soft >= 0) {
   pushed.applySoftImpulse(soft, [0, 0.5 * mass, 0]);
   expect(Math.abs(speed() - 1.5) < 1e-4, `half a metre a second more: ${speed()}`);
   const at = pushed.softMotion(soft).center.map((x, i) => x + pushed.origin[i] + (i === 1)), vertex = pushed.nearestVertex(soft, at);
-  pushed.hold(soft, vertex, at, { maxForce: 1 });
+  pushed.grab(soft, vertex, at, { maxForce: 1 });
   hands.step(1 / 60);
-  const pulled = Math.hypot(...pushed.holdForce(soft, vertex));
+  const pulled = Math.hypot(...pushed.grabForce(soft, vertex));
   expect(pulled > 0.1 && pulled < 1.001, `held by ${pulled} N`);
   expect(pushed.release(soft, vertex) && !pushed.release(soft, vertex), 'what is held is released once');
-  expect(Math.hypot(...pushed.holdForce(soft, vertex)) === 0, 'what is released is held by nothing');
+  expect(Math.hypot(...pushed.grabForce(soft, vertex)) === 0, 'what is released is held by nothing');
   for (let i = 0; i < 120; i++) hands.step(1 / 60);
   const pins = pushed.pinReactions(soft), elements = pushed.tetrahedra(soft);
   expect(pins.length > 0 && pins.every((one) => one.points >= 0 && one.force.every(Number.isFinite)) && pins.some((one) => one.force[1] > 0),
@@ -67,7 +67,7 @@ if (soft >= 0) {
   pushed.applySoftForce(soft, [0, 3 * 10 * mass, 0], 1 / 60);
   hands.step(1 / 60);
   expect(pushed.softMotion(soft).velocity[1] > still + 0.05, `a force of three times its weight: ${still} to ${pushed.softMotion(soft).velocity[1]}`);
-  throws(() => pushed.hold(soft, 1e6, at), SbfmtError, 'a vertex that is not there');
+  throws(() => pushed.grab(soft, 1e6, at), SbfmtError, 'a vertex that is not there');
   throws(() => pushed.applySoftImpulse(99, [0, 0, 0]), TypeError, 'a body that is not there');
 }
 pushed.free();
@@ -84,7 +84,7 @@ near.setDetailLevel(1);
 for (let i = 0; i < 3; i++) world.step(1 / 60);
 expect(near.detailLevel === 1 && near.fade > 0, `put on detailLevel 1 it is on ${near.detailLevel}, its skin at ${near.fade}`);
 near.setDetailLevel(null);
-world.detail({ errorPx: 1, awayAfter: 0.5 });
+world.detail({ errorPx: 1, offscreenAfter: 0.5 });
 world.views([{ eye: [0, 0.5, -1.5], forward: [0, -0.1, 1], height: 0.8, ratio: 1.6, lines: 1080 }]);
 for (let i = 0; i < 120; i++) world.step(1 / 60);
 expect(near.detailLevel === 0 && far.detailLevel > 0, `chosen: near ${near.detailLevel}, far ${far.detailLevel}`);

@@ -75,7 +75,7 @@ expect(ball.hits > 0 && ball.posture === 'falling' && ball.valid, `a ball that i
 await tab.waitForTimeout(500);
 await shoot('ball');
 
-// Physics that is dearer than there is time for goes slowly, and the page says so; pictures go on. Cheap, it goes as the clock.
+// Physics that takes too long runs slowly, and the page says so; pictures continue. Otherwise it runs in real time.
 const hurried = await tab.evaluate(async () => {
   const { draw, step } = viewer, covered = {};
   if (!viewer.paused) viewer.pause();
@@ -99,7 +99,7 @@ expect([1, 6, 15].every((ticks, i) => Math.abs(hurried.cheap[i] - ticks) < 1e-6)
 expect(hurried.dear.every((ticks) => Math.abs(ticks - 1) < 1e-6), `dear ticks: ${JSON.stringify(hurried)}`);
 expect(hurried.frames > 5 && /^slowed to \d+ %$/.test(hurried.said), `ticks of 60 ms: ${JSON.stringify(hurried)}`);
 
-// What is under the pointer is dragged, and let go it gets up again.
+// The object under the pointer is dragged; after release the character gets up.
 const spot = await tab.evaluate(() => {
   viewer.restart();
   for (let i = 0; i < 30; i++) viewer.step(1 / 60);
@@ -184,7 +184,7 @@ const { hash, us } = await tab.evaluate(([count, [forward, turn], land]) => {
   return { hash: viewer.hashAfter(count, forward, turn, land), us: 1000 * (performance.now() - began) / count };
 }, [frames, drive, ground]);
 
-// Another file takes its place. What cannot be shown leaves what is there, and the page says why.
+// Another file replaces it. An invalid file changes nothing, and the page says why.
 const shown = () => tab.evaluate(() => {
   viewer.step(1 / 60);
   viewer.draw();
@@ -248,7 +248,7 @@ const narrow = await tab.evaluate(() => ({ wide: document.documentElement.scroll
 expect(narrow.wide <= 420 && narrow.panel >= narrow.canvas - 1, `in a narrow window: ${JSON.stringify(narrow)}`);
 await shoot('narrow');
 
-// There fingers walk: a button of the picture, held and let go.
+// Touch input: a button of the picture, pressed and released.
 const pad = await tab.locator('#pad [data-code=KeyW]').boundingBox();
 expect(pad && pad.width >= 44 && pad.height >= 44, `a button to walk by: ${JSON.stringify(pad)}`);
 await tab.evaluate(() => viewer.restart());

@@ -66,7 +66,7 @@ console.log('good', shown.children.length, mesh.geometry.groups.length);
 
 
 def written_example(folder, path):
-    """The first program of a document, its file read from disk: what it does to the lizard is what it says."""
+    """The first program of a document, with its file read from disk: the lizard moves as the text says."""
     with open(path, encoding="utf-8") as stream:
         code = re.search(r"```js\n(.*?)```", stream.read(), re.DOTALL).group(1)
     code = "import { readFile } from 'node:fs/promises';\nglobalThis.fetch = async (name) => new Response(await readFile(name));\n" + code

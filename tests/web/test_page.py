@@ -15,7 +15,7 @@ FRAMES, DRIVE, GROUND = 600, (0.3, 0.2), {"kind": "noise", "height": 0.1, "seed"
 
 
 def check_missing(path, folder):
-    """Without the page's parts export says so, with the status of a machine at fault, and writes nothing."""
+    """Without the page's parts export reports it, with the status of a system error, and writes nothing."""
     out = os.path.join(folder, "none.html")
     done = subprocess.run([web_files.SBFMT, "export", path, "-o", out], capture_output=True, text=True, check=False,
                           env={**os.environ, "SBFMT_WEB": folder})

@@ -17,7 +17,7 @@ EXAMPLES = {"spider": 0.1, "snake": 0.3, "pudding": 0.2, "yeti": 0.3}
 RED, BLUE = (190, 20, 20), (20, 20, 190)  # upper and lower half of the image
 
 def sources(folder):
-    """Names, files, and what is special: levels, the image's colour, the drive."""
+    """Names, files, and special settings: levels, the image's colour, the drive."""
     for name, speed in EXAMPLES.items():
         made = os.path.join(folder, name + ".sbf")
         web_files.run(web_files.SBFMT, "convert", os.path.join(web_files.SOURCE, "examples", name, name + ".glb"), "-o", made)

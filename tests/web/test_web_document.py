@@ -17,7 +17,7 @@ FIRST = r"walked 2\.\d\d m"
 GOES_ON = (r"[1-9]\d{2,} vertices, [1-9]\d{2,} triangles in \d+ materials", r"SbfmtError, [A-Z_]+: .{20,}", r"over the hills by 1\.\d\d m",
            r"soft, bones, bones", r"\{ ?count: 300, frames: 300, checks: [1-9]\d*, differs: false, differsAt: null ?\}\s*true")
 PAGES = ("index.html", "three.html")
-MOST_LINES = 9  # under ten, of what is one's own to write for node
+MOST_LINES = 9  # under ten lines of the user's own code for node
 
 
 def blocks(language):

@@ -78,7 +78,7 @@ if (place) {
     stage.draw();
     return [...Array(4000).keys()].some((vertex) => {
       try {
-        return Math.hypot(...character.holdForce(softBody, vertex)) > 0;
+        return Math.hypot(...character.grabForce(softBody, vertex)) > 0;
       } catch {
         return false;
       }

@@ -50,7 +50,7 @@ static void go_round(const sbf_asset *asset, const sbf_load_options *options, bo
   for (int i = 0; i < 4; i++) sbf_buffer_free(&buffers[i]);
 }
 
-START_TEST(test_filled_assets_go_round)
+START_TEST(test_filled_assets_round_trip)
 {
   for (uint64_t seed = 0; seed < 8; seed++)
     for (int store = 0; store < 2; store++) {
@@ -62,7 +62,7 @@ START_TEST(test_filled_assets_go_round)
 }
 END_TEST
 
-START_TEST(test_an_empty_asset_goes_round)
+START_TEST(test_an_empty_asset_round_trips)
 {
   sbf_asset *asset = sbf_asset_create(NULL);
   go_round(asset, NULL, false);
@@ -108,8 +108,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("both_forms");
   TCase *tests = tcase_create("both_forms");
-  tcase_add_test(tests, test_filled_assets_go_round);
-  tcase_add_test(tests, test_an_empty_asset_goes_round);
+  tcase_add_test(tests, test_filled_assets_round_trip);
+  tcase_add_test(tests, test_an_empty_asset_round_trips);
   tcase_add_test(tests, test_unknown_extensions);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -26,7 +26,7 @@ static void save_and_load(const char *path, bool packed) {
   free(bytes);
 }
 
-START_TEST(test_the_name_says_what_is_saved_and_the_bytes_what_is_loaded)
+START_TEST(test_saving_follows_the_name_and_loading_the_bytes)
 {
   save_and_load(harness_scratch("any.sbf"), false);
   save_and_load(harness_scratch("any.sbfz"), true);
@@ -247,7 +247,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("load_any");
   TCase *all = tcase_create("all");
-  tcase_add_test(all, test_the_name_says_what_is_saved_and_the_bytes_what_is_loaded);
+  tcase_add_test(all, test_saving_follows_the_name_and_loading_the_bytes);
   tcase_add_test(all, test_other_content);
   tcase_add_test(all, test_missing_file);
   tcase_add_test(all, test_pipes);

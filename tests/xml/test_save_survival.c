@@ -150,7 +150,7 @@ START_TEST(a_kill_at_any_moment)
 END_TEST
 
 /* Ended by the system at an exact byte of the file written: SIGXFSZ, where the size is bounded. */
-START_TEST(an_end_at_any_byte)
+START_TEST(termination_at_any_byte)
 {
   char folder[600];
   int form = _i;
@@ -267,7 +267,7 @@ int main(void) {
   TCase *tests = tcase_create("save_survival");
   tcase_add_unchecked_fixture(tests, setup, teardown);
   tcase_add_loop_test(tests, a_kill_at_any_moment, 0, FORMS);
-  tcase_add_loop_test(tests, an_end_at_any_byte, 0, FORMS);
+  tcase_add_loop_test(tests, termination_at_any_byte, 0, FORMS);
 #ifdef __linux__
   tcase_add_loop_test(tests, a_full_disk, 0, FORMS);
 #endif

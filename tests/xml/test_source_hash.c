@@ -40,7 +40,7 @@ START_TEST(test_it_is_the_hash_of_the_canonical_text)
 }
 END_TEST
 
-START_TEST(test_what_is_derived_does_not_matter)
+START_TEST(test_derived_parts_do_not_change_it)
 {
   hash h = hash_of(plain, NULL);
   ck_assert_str_eq(
@@ -52,7 +52,7 @@ START_TEST(test_what_is_derived_does_not_matter)
 }
 END_TEST
 
-START_TEST(test_what_is_source_does)
+START_TEST(test_source_parts_change_it)
 {
   hash h = hash_of(plain, NULL);
   ck_assert_str_ne(h.text, hash_of("<soft_body id='a'><interior>1 2 4</interior></soft_body>", NULL).text);
@@ -79,8 +79,8 @@ int main(void) {
   Suite *suite = suite_create("source_hash");
   TCase *all = tcase_create("all");
   tcase_add_test(all, test_it_is_the_hash_of_the_canonical_text);
-  tcase_add_test(all, test_what_is_derived_does_not_matter);
-  tcase_add_test(all, test_what_is_source_does);
+  tcase_add_test(all, test_derived_parts_do_not_change_it);
+  tcase_add_test(all, test_source_parts_change_it);
   tcase_add_test(all, test_parts_that_are_not_read);
   suite_add_tcase(suite, all);
   return harness_run(suite);

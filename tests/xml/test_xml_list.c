@@ -59,7 +59,7 @@ START_TEST(test_integers_and_bytes_across_pieces)
 }
 END_TEST
 
-START_TEST(test_faults_are_the_same_in_any_pieces)
+START_TEST(test_errors_are_the_same_for_any_division)
 {
   static const struct {
     const sbfi_field *field;
@@ -98,7 +98,7 @@ START_TEST(test_faults_are_the_same_in_any_pieces)
 }
 END_TEST
 
-START_TEST(test_place_and_word_of_a_fault)
+START_TEST(test_position_and_word_of_an_error)
 {
   sbfi_xml_list list;
   size_t index;
@@ -157,8 +157,8 @@ int main(void) {
   TCase *all = tcase_create("all");
   tcase_add_test(all, test_numbers_across_pieces);
   tcase_add_test(all, test_integers_and_bytes_across_pieces);
-  tcase_add_test(all, test_faults_are_the_same_in_any_pieces);
-  tcase_add_test(all, test_place_and_word_of_a_fault);
+  tcase_add_test(all, test_errors_are_the_same_for_any_division);
+  tcase_add_test(all, test_position_and_word_of_an_error);
   tcase_add_test(all, test_very_long_numbers);
   tcase_add_test(all, test_limit_and_memory);
   suite_add_tcase(suite, all);

@@ -137,7 +137,7 @@ START_TEST(test_invalid_samples)
 }
 END_TEST
 
-/* --- what is left out, and what is passed over --- */
+/* --- omitted and ignored parts --- */
 
 START_TEST(test_newer_minor_version)
 {
@@ -153,12 +153,12 @@ START_TEST(test_newer_minor_version)
           &error);
   ck_assert_msg(asset != NULL, "%s", error.message);
   ck_assert_uint_eq(asset->bones.count, 1);
-  ck_assert_str_eq(asset->version, SBF_FORMAT_VERSION); /* what it holds is no more than that */
+  ck_assert_str_eq(asset->version, SBF_FORMAT_VERSION); /* it has no parts of a newer version */
   sbf_asset_free(asset);
 }
 END_TEST
 
-START_TEST(test_what_is_equal_to_nothing)
+START_TEST(test_ignored_syntax)
 {
   sbf_diagnostic error;
   sbf_asset *asset =
@@ -177,7 +177,7 @@ START_TEST(test_what_is_equal_to_nothing)
 }
 END_TEST
 
-START_TEST(test_bodies_may_stand_apart)
+START_TEST(test_bodies_may_be_separate)
 {
   sbf_diagnostic error;
   sbf_asset *asset = samples_load(
@@ -401,7 +401,8 @@ START_TEST(test_memory_of_the_parser_runs_out)
   ck_assert_int_eq(xmlMemSetup(free, parser_malloc, parser_realloc, parser_strdup), 0);
   sbf_asset *expected, *asset;
   sbf_diagnostic error = {0};
-  ck_assert_int_eq(sbf_xml_load_memory(text, size, NULL, &expected, &error), SBF_OK); /* what is made once */
+  ck_assert_int_eq(
+      sbf_xml_load_memory(text, size, NULL, &expected, &error), SBF_OK); /* the expected result */
   for (size_t allowed = 0;; allowed++) {
     parser_calls = 0;
     parser_allowed = allowed;
@@ -452,8 +453,8 @@ int main(void) {
   tcase_add_test(all, test_valid_samples);
   tcase_add_test(all, test_invalid_samples);
   tcase_add_test(all, test_newer_minor_version);
-  tcase_add_test(all, test_what_is_equal_to_nothing);
-  tcase_add_test(all, test_bodies_may_stand_apart);
+  tcase_add_test(all, test_ignored_syntax);
+  tcase_add_test(all, test_bodies_may_be_separate);
   tcase_add_test(all, test_limits);
   tcase_add_test(all, test_long_lists_and_texts);
   tcase_add_test(all, test_lists_in_memory);

@@ -131,7 +131,7 @@ START_TEST(test_siblings_of_several_names)
   ck_assert_uint_eq(o.findings.count, 2);
   expect(&o, 0, SBF_CODE_VALUE_OUT_OF_RANGE, 5, "/sbf/joints/revolute_joint[1]/@break_force", -1);
   expect(&o, 1, SBF_CODE_VALUE_OUT_OF_RANGE, 6, "/sbf/joints/fixed_joint[2]/@break_force", -1);
-  /* the reader itself numbers them alike */
+  /* the reader numbers them in the same way */
   samples_expect("<sbf version=\"1.0\">\n"
                  "<rigid_bodies><rigid_body id=\"r\"/></rigid_bodies>\n"
                  "<joints>\n"
@@ -155,7 +155,7 @@ START_TEST(test_a_word_in_a_long_list)
 }
 END_TEST
 
-START_TEST(test_references_look_both_ways)
+START_TEST(test_references_point_forward_and_back)
 {
   sbf_diagnostic error;
   sbf_asset *asset = samples_load(samples_document("<gait id='g' body='hip'><tail chain='t'/></gait>"
@@ -200,7 +200,7 @@ int main(void) {
   tcase_add_test(all, test_repeated_ids_stand_before_the_references_they_break);
   tcase_add_test(all, test_siblings_of_several_names);
   tcase_add_test(all, test_a_word_in_a_long_list);
-  tcase_add_test(all, test_references_look_both_ways);
+  tcase_add_test(all, test_references_point_forward_and_back);
   tcase_add_test(all, test_values);
   suite_add_tcase(suite, all);
   return harness_run(suite);

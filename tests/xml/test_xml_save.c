@@ -24,7 +24,7 @@ START_TEST(test_file_and_memory_get_the_same_bytes)
 }
 END_TEST
 
-START_TEST(test_what_could_not_be_loaded_is_not_saved)
+START_TEST(test_assets_that_could_not_load_are_not_saved)
 {
   sbf_asset *asset = sbf_asset_create(NULL);
   const char *path = harness_scratch("kept.sbf");
@@ -103,7 +103,7 @@ int main(void) {
   Suite *suite = suite_create("xml_save");
   TCase *all = tcase_create("all");
   tcase_add_test(all, test_file_and_memory_get_the_same_bytes);
-  tcase_add_test(all, test_what_could_not_be_loaded_is_not_saved);
+  tcase_add_test(all, test_assets_that_could_not_load_are_not_saved);
   tcase_add_test(all, test_unwritable_path);
   tcase_add_test(all, test_full_disk);
   tcase_add_test(all, test_memory_runs_out);

@@ -76,7 +76,7 @@ static void expect_schema_accepts(const char *path) {
   xmlFreeDoc(document);
 }
 
-START_TEST(test_what_is_written_follows_the_xml_schema)
+START_TEST(test_written_files_follow_the_xml_schema)
 {
   xmlSchemaParserCtxtPtr parser = xmlSchemaNewParserCtxt(harness_source("spec/sbf.xsd"));
   schema = xmlSchemaParse(parser);
@@ -101,7 +101,7 @@ int main(void) {
   tcase_add_test(all, test_children);
   tcase_add_test(all, test_attributes);
   tcase_add_test(all, test_suggestions);
-  tcase_add_test(all, test_what_is_written_follows_the_xml_schema);
+  tcase_add_test(all, test_written_files_follow_the_xml_schema);
   suite_add_tcase(suite, all);
   return harness_run(suite);
 }

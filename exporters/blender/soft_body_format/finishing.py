@@ -54,7 +54,7 @@ def to_asset(document, repaired=None):
     """The library's asset of a document. `repaired` is called with each repair; None: nothing is repaired."""
     if repaired is None:
         return sbfmt.load_document(document)
-    with sbfmt.load_document(document, mendable=True) as unrepaired:
+    with sbfmt.load_document(document, repairable=True) as unrepaired:
         return unrepaired.fix(report=repaired)
 
 

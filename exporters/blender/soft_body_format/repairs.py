@@ -94,10 +94,10 @@ IN_FILES = ("TETRAHEDRON_INVERTED", "TETRAHEDRON_DUPLICATE", "SPRING_DUPLICATE",
             "SKIN_SUM", "EMBEDDING_SUM", "EMBEDDING_BLEND", "VALUE_OUT_OF_RANGE", "ROTATION_NOT_UNIT", "JOINT_FRAME", "NORMAL_NOT_UNIT")
 
 
-def repair_of(finding, mends_files):
-    """The Repair of a finding, or None. `mends_files`: files are repaired already."""
+def repair_of(finding, repairs_files):
+    """The Repair of a finding, or None. `repairs_files`: files are repaired already."""
     if finding.code in IN_SCENE and finding.object_name:
         return IN_SCENE[finding.code]
-    if finding.code in IN_FILES and not mends_files:
+    if finding.code in IN_FILES and not repairs_files:
         return Repair("Repair it in the file")
     return None

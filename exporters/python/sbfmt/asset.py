@@ -8,9 +8,9 @@ import xml.etree.ElementTree as ElementTree
 from .description import describe
 from .document.reading import from_xml
 from .document.writing import to_parts
-from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertAttachment, ConvertOptions, ConvertPin, \
-    ConvertStance, DiagnosticStruct, ExportOptions, FixOptions, FixResult, GivenList, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, \
-    check, library
+from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertAttachment, ConvertOptions, ConvertPin, ConvertPinning, \
+    ConvertStance, DiagnosticStruct, ExportOptions, FixOptions, FixResult, GivenList, LoadOptions, OK, SaveOptions, ValidateOptions, \
+    ValidateResult, check, library
 
 INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching")
 LIMITS = ("none", "human", "quadruped", "reptile")
@@ -116,7 +116,7 @@ class Asset:
 
     def fix(self, report=None, build=True):
         """A new asset in which every fault with one right answer is repaired. `report` is called with each repair. This asset may be
-        loaded with `mendable`. Without `build` stale derived parts stay."""
+        loaded with `repairable`. Without `build` stale derived parts stay."""
         callbacks, found, made = Callbacks(report), DiagnosticStruct(), ctypes.c_void_p()
         options = FixOptions(ctypes.sizeof(FixOptions), None, not build, callbacks.report, None)
         status = library().sbf_fix(self.pointer, ctypes.byref(options), ctypes.byref(made), ctypes.byref(FixResult()),
@@ -143,13 +143,13 @@ class Asset:
         return None if same else path.value.decode()
 
 
-def load(path, check_crc=True, extensions=(), mendable=False):
-    """Reads an .sbf, .sbfz or .glb file. `extensions` lists the ones that the caller understands. `mendable` accepts faults that `fix`
+def load(path, check_crc=True, extensions=(), repairable=False):
+    """Reads an .sbf, .sbfz or .glb file. `extensions` lists the ones that the caller understands. `repairable` accepts faults that `fix`
     can repair; then only `fix` may be called on the asset."""
     names = (ctypes.c_char_p * len(extensions))(*(name.encode() for name in extensions))
     options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), check_crc=check_crc, extension_count=len(extensions),
                           extensions=ctypes.cast(names, ctypes.POINTER(ctypes.c_char_p)), copy_file=True,
-                          mendable=mendable, with_images=path_bytes(path).endswith(b".glb"))
+                          repairable=repairable, with_images=path_bytes(path).endswith(b".glb"))
     loaded, error = ctypes.c_void_p(), DiagnosticStruct()
     check(library().sbf_load_file(path_bytes(path), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
     return Asset(loaded.value)
@@ -163,10 +163,10 @@ def given(items):
     return GivenList(address, count * items.itemsize)
 
 
-def load_document(record, mendable=False):
-    """The asset of a `document.Record`, checked like a file; `mendable` as in `load`."""
+def load_document(record, repairable=False):
+    """The asset of a `document.Record`, checked like a file; `repairable` as in `load`."""
     text, lists = to_parts(record)
-    options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), mendable=mendable, given_list_count=len(lists),
+    options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), repairable=repairable, given_list_count=len(lists),
                           given_lists=(GivenList * len(lists))(*map(given, lists)))
     loaded, error = ctypes.c_void_p(), DiagnosticStruct()
     check(library().sbf_xml_load_memory(text, len(text), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
@@ -203,28 +203,30 @@ def propose_gait(record, report=None):
 
 
 def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=None, pins=None, goals=(0.0, 1.0),
-            goal_stiffness=0.0, limits="none", keep_modulus=False, holds=None, attachments=None):
+            goal_stiffness=0.0, limits="none", keep_modulus=False, section_pins=None, attachments=None):
     """Reads another program's file into an asset of source parts; `build` makes the rest.
 
     `pins` is a dict from vertex groups or bones with weights to the bone they are pinned to; "" is the world, None the bone of
     that name. `goals` are the minimum and maximum weight. `goal_stiffness` is in N/m at weight 1; 0: from the body.
     `limits` are proposed for joints without limits: none, human, quadruped or reptile.
     `keep_modulus` keeps the usual modulus of bodies without pins, even if it is too soft for their weight.
-    `holds` is like `pins`, for sections cut from a skin; None is each section's own bone.
+    `section_pins` is like `pins`, for sections cut from a skin; None is each section's own bone.
     `attachments` is a dict from soft bodies to an object or bone. Points inside its hull are attached to it."""
     if limits not in LIMITS:
         raise ValueError(f"limits are {', '.join(LIMITS)}, not {limits!r}")
     if up not in (None, "y", "z"):
         raise ValueError(f"up is y or z, not {up!r}")
     callbacks, made, error = Callbacks(report), ctypes.c_void_p(), DiagnosticStruct()
-    pinned, section_pins = ([(group.encode(), None if bone is None else bone.encode()) for group, bone in (names or {}).items()]
-                    for names in (pins, holds))
+    pinned, in_sections = ([(group.encode(), None if bone is None else bone.encode()) for group, bone in (names or {}).items()]
+                           for names in (pins, section_pins))
     attached = [(body.encode(), holder.encode()) for body, holder in (attachments or {}).items()]
-    options = ConvertOptions(ctypes.sizeof(ConvertOptions), None, path_bytes(rig), unit, up.encode() if up else b"\0",
-                             not gait, path_bytes(helper), callbacks.report, None,
-                             (ConvertPin * len(pinned))(*pinned), len(pinned), *goals, goal_stiffness, None, LIMITS.index(limits),
-                             keep_modulus, (ConvertPin * len(section_pins))(*section_pins), len(section_pins),
-                             (ConvertAttachment * len(attached))(*attached), len(attached))
+    options = ConvertOptions(
+        struct_size=ctypes.sizeof(ConvertOptions), rig=path_bytes(rig), unit_m=unit, up=up.encode() if up else b"\0",
+        no_gait=not gait, import_helper=path_bytes(helper), report=callbacks.report, limits=LIMITS.index(limits),
+        keep_modulus=keep_modulus,
+        pinning=ConvertPinning((ConvertPin * len(pinned))(*pinned), len(pinned), *goals, goal_stiffness,
+                               (ConvertPin * len(in_sections))(*in_sections), len(in_sections)),
+        attachments=(ConvertAttachment * len(attached))(*attached), attachment_count=len(attached))
     status = library().sbf_convert(path_bytes(path), ctypes.byref(options), ctypes.byref(made), ctypes.byref(error))
     asset = Asset(made.value) if status == OK else None
     callbacks.check(status, error)

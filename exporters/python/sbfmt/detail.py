@@ -35,8 +35,8 @@ class DetailLevelStruct(Structure):
 
 
 class Definition(Structure):
-    _fields_ = [("cookie", c_uint32), ("error_px", c_float), ("budget_us", c_float), ("ns_per_visit", c_float), ("settle", c_float),
-                ("stay_s", c_float), ("away_after_s", c_float)]
+    _fields_ = [("cookie", c_uint32), ("error_px", c_float), ("budget_us", c_float), ("ns_per_visit", c_float), ("coarsen_fraction", c_float),
+                ("stay_s", c_float), ("offscreen_after_s", c_float)]
 
 
 class View(Structure):
@@ -98,7 +98,7 @@ def fade(character):
 
 
 def choose(world, **wanted):
-    """Lets the world choose detail levels from now on: by error_px, budget_us, ns_per_visit, settle, stay_s, away_after_s."""
+    """Lets the world choose detail levels from now on: by error_px, budget_us, ns_per_visit, coarsen_fraction, stay_s, offscreen_after_s."""
     definition = _library().sbr_default_detail_definition()
     known = {name for name, _ in Definition._fields_} - {"cookie"}
     for name, value in wanted.items():

@@ -51,7 +51,7 @@ class LoadOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("limits", Limits), ("check_crc", c_bool),
                 ("name", c_char_p), ("extensions", POINTER(c_char_p)), ("extension_count", c_uint32),
                 ("selection", c_void_p), ("copy_file", c_bool), ("read_bytes", POINTER(c_uint64)), ("outline", c_bool),
-                ("mendable", c_bool), ("given_lists", POINTER(GivenList)), ("given_list_count", c_uint32),
+                ("repairable", c_bool), ("given_lists", POINTER(GivenList)), ("given_list_count", c_uint32),
                 ("report", Report), ("user", c_void_p), ("with_images", c_bool)]
 
 
@@ -76,16 +76,28 @@ class ConvertAttachment(Structure):
     _fields_ = [("body", c_char_p), ("holder", c_char_p)]
 
 
+class ConvertPinning(Structure):
+    _fields_ = [("pins", POINTER(ConvertPin)), ("pin_count", c_uint32), ("goal_minimum", c_double),
+                ("goal_maximum", c_double), ("goal_stiffness", c_double), ("section_pins", POINTER(ConvertPin)),
+                ("section_pin_count", c_uint32)]
+
+
+class ConvertRigging(Structure):
+    _fields_ = [("weights", c_char_p), ("shells", POINTER(ConvertPin)), ("shell_count", c_uint32),
+                ("misfit", POINTER(c_void_p))]
+
+
+class ConvertSoftness(Structure):
+    _fields_ = [("firmness", c_double), ("soft", POINTER(c_char_p)), ("soft_count", c_uint32),
+                ("rigid", POINTER(c_char_p)), ("rigid_count", c_uint32)]
+
+
 class ConvertOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("rig", c_char_p), ("unit_m", c_double),
-                ("up", c_char), ("no_gait", c_bool), ("import_helper", c_char_p), ("report", Report), ("user", c_void_p),
-                ("pins", POINTER(ConvertPin)), ("pin_count", c_uint32), ("goal_minimum", c_double),
-                ("goal_maximum", c_double), ("goal_stiffness", c_double),
-                ("summary", c_void_p), ("limits", ctypes.c_int), ("keep_modulus", c_bool), ("holds", POINTER(ConvertPin)),
-                ("hold_count", c_uint32), ("attachments", POINTER(ConvertAttachment)), ("attachment_count", c_uint32),
-                ("weights", c_char_p), ("misfit", POINTER(c_void_p)), ("shells", POINTER(ConvertPin)), ("shell_count", c_uint32),
-                ("forward", c_char_p), ("firmness", c_double), ("soft", POINTER(c_char_p)), ("soft_count", c_uint32),
-                ("rigid", POINTER(c_char_p)), ("rigid_count", c_uint32), ("gait", c_char_p)]
+                ("up", c_char), ("forward", c_char_p), ("no_gait", c_bool), ("gait", c_char_p), ("import_helper", c_char_p),
+                ("report", Report), ("user", c_void_p), ("summary", c_void_p), ("limits", c_int), ("keep_modulus", c_bool),
+                ("pinning", ConvertPinning), ("attachments", POINTER(ConvertAttachment)), ("attachment_count", c_uint32),
+                ("rigging", ConvertRigging), ("softness", ConvertSoftness)]
 
 
 class ValidateOptions(Structure):

@@ -66,7 +66,7 @@ class WorldDefinition(Structure):
 
 
 class CharacterDefinition(Structure):
-    _fields_ = [("cookie", c_uint32), ("position", Double3), ("heading", c_float), ("scale", c_float), ("hold", c_bool),
+    _fields_ = [("cookie", c_uint32), ("position", Double3), ("heading", c_float), ("scale", c_float), ("hold_pose", c_bool),
                 ("ground", Ground), ("detail_level", c_uint32), ("user_data", c_void_p)]
 
 
@@ -253,12 +253,12 @@ class World:
         self._finalizer()
         self.pointer, self.characters, self.models = None, [], []
 
-    def add(self, model, position=(0, 0, 0), heading=0.0, scale=1.0, hold=False, detail_level=0):
+    def add(self, model, position=(0, 0, 0), heading=0.0, scale=1.0, hold_pose=False, detail_level=0):
         """Adds a character. The height of its position is relative to the ground. A distant character may start on a coarse detail level
         (detail.py)."""
         definition = runtime_library().sbr_default_character_definition()
         definition.position, definition.heading = Double3(*position), heading
-        definition.scale, definition.hold, definition.detail_level = scale, hold, detail_level
+        definition.scale, definition.hold_pose, definition.detail_level = scale, hold_pose, detail_level
         made, error = CharacterId(), DiagnosticStruct()
         check(runtime_library().sbr_character_create(self.pointer, model.pointer, byref(definition), byref(made), byref(error)), error)
         self.models.append(model)

@@ -4,10 +4,10 @@
     with runtime.World(runtime.flat(0.0)) as world:
         lizard = world.add(runtime.Model(asset))
         vertex = soft_body.nearest_vertex(lizard, 0, (0, 0.2, 0.5))
-        soft_body.hold(lizard, 0, vertex, (0, 0.6, 0.5))
+        soft_body.grab(lizard, 0, vertex, (0, 0.6, 0.5))
         for _ in range(60):
             world.step(1 / 60)
-        print(soft_body.hold_force(lizard, 0, vertex), soft_body.pin_reactions(lizard, 0))
+        print(soft_body.grab_force(lizard, 0, vertex), soft_body.pin_reactions(lizard, 0))
 
 Units are metres, newtons, newton-seconds and rad/s, in world space. Returned positions are relative to `Character.origin`. A call that
 the runtime rejects raises sbfmt.Error. A vertex is a vertex of the body's surface; WHOLE_BODY means all points.
@@ -33,7 +33,7 @@ class MotionStruct(Structure):
     _fields_ = [("mass", c_float), ("center", Vec3), ("velocity", Vec3), ("angular_velocity", Vec3)]
 
 
-class VertexPinStruct(Structure):
+class VertexGrabStruct(Structure):
     _fields_ = [("cookie", c_uint32), ("target", Double3), ("frequency_hz", c_float), ("damping_ratio", c_float), ("max_force", c_float)]
 
 
@@ -56,7 +56,7 @@ class Spring(Structure):
 
 
 # Tests compare their sizes with the headers.
-STRUCTS = {"sbr_soft_motion": MotionStruct, "sbr_soft_hold": VertexPinStruct, "sbr_pin_reaction": PinReactionStruct,
+STRUCTS = {"sbr_soft_motion": MotionStruct, "sbr_vertex_grab": VertexGrabStruct, "sbr_pin_reaction": PinReactionStruct,
            "sbr_tetrahedron_state": Tetrahedron, "sbr_spring_state": Spring}
 
 BODY, VERTEX = c_uint32, c_uint32
@@ -65,10 +65,10 @@ CALLS = {
     "sbr_character_set_soft_velocity": (c_int, [W, C, BODY, Vec3, Vec3, ERROR]),
     "sbr_character_apply_soft_impulse": (c_int, [W, C, BODY, VERTEX, Vec3, ERROR]),
     "sbr_character_apply_soft_force": (c_int, [W, C, BODY, VERTEX, Vec3, c_float, ERROR]),
-    "sbr_default_soft_hold": (VertexPinStruct, []),
-    "sbr_character_hold_vertex": (c_int, [W, C, BODY, VERTEX, POINTER(VertexPinStruct), ERROR]),
+    "sbr_default_vertex_grab": (VertexGrabStruct, []),
+    "sbr_character_grab_vertex": (c_int, [W, C, BODY, VERTEX, POINTER(VertexGrabStruct), ERROR]),
     "sbr_character_release_vertex": (c_bool, [W, C, BODY, VERTEX]),
-    "sbr_character_get_hold_force": (Vec3, [W, C, BODY, VERTEX]),
+    "sbr_character_get_grab_force": (Vec3, [W, C, BODY, VERTEX]),
     "sbr_character_find_nearest_vertex": (c_uint32, [W, C, BODY, Double3]),
     "sbr_character_get_pin_reactions": (c_uint32, [W, C, BODY, POINTER(PinReactionStruct), c_uint32]),
     "sbr_character_get_tetrahedra": (c_uint32, [W, C, BODY, POINTER(Tetrahedron), c_uint32]),
@@ -127,12 +127,12 @@ def apply_force(character, body, force, seconds, vertex=WHOLE_BODY):
     _do("sbr_character_apply_soft_force", character, body, vertex, Vec3(*force), seconds)
 
 
-def hold(character, body, vertex, target, frequency_hz=0.0, damping_ratio=1.0, max_force=0.0):
+def grab(character, body, vertex, target, frequency_hz=0.0, damping_ratio=1.0, max_force=0.0):
     """Pulls a vertex to a target (world, m) until it is released. Another call moves the target. 0: the runtime's defaults."""
-    how = _library().sbr_default_soft_hold()
+    how = _library().sbr_default_vertex_grab()
     how.target = Double3(*target)
     how.frequency_hz, how.damping_ratio, how.max_force = frequency_hz, damping_ratio, max_force
-    _do("sbr_character_hold_vertex", character, body, vertex, byref(how))
+    _do("sbr_character_grab_vertex", character, body, vertex, byref(how))
 
 
 def release(character, body, vertex):
@@ -140,9 +140,9 @@ def release(character, body, vertex):
     return _ask("sbr_character_release_vertex", character, body, vertex)
 
 
-def hold_force(character, body, vertex):
+def grab_force(character, body, vertex):
     """Force on a held vertex in N, mean of the last tick."""
-    return _numbers(_ask("sbr_character_get_hold_force", character, body, vertex))
+    return _numbers(_ask("sbr_character_get_grab_force", character, body, vertex))
 
 
 def nearest_vertex(character, body, position):

@@ -217,8 +217,8 @@ static sbf_status convert_readings(
   sbfi_array_free(&c.ids.slots);
   sbfi_arena_free(&c.scratch);
   if (status != SBF_OK) {
-    if (c.keep_misfit && options->misfit)
-      *options->misfit = c.asset;
+    if (c.keep_misfit && options->rigging.misfit)
+      *options->rigging.misfit = c.asset;
     else
       sbf_asset_free(c.asset);
     return status;
@@ -297,8 +297,9 @@ sbf_status sbf_convert(
         "gait must be one of walk, swim, fly, slither, crawl, roll and none, not '%s'", options->gait);
   if ((unsigned)options->limits > SBF_CONVERT_LIMITS_REPTILE)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the options have an unknown kind of limits");
-  if (!(options->goal_minimum >= 0 && options->goal_minimum <= 1 && options->goal_maximum >= 0 &&
-          options->goal_maximum <= 1 && options->goal_stiffness >= 0 && options->goal_stiffness <= FLT_MAX))
+  if (!(options->pinning.goal_minimum >= 0 && options->pinning.goal_minimum <= 1 &&
+          options->pinning.goal_maximum >= 0 && options->pinning.goal_maximum <= 1 &&
+          options->pinning.goal_stiffness >= 0 && options->pinning.goal_stiffness <= FLT_MAX))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "the minimum and maximum of goals must be from 0 to 1, and their stiffness at least 0");
 

@@ -29,8 +29,8 @@ static int32_t bone_named(const sbfi_conversion *c, const char *name) {
 }
 
 bool sbfi_mesh_is_pinned(const sbfi_conversion *c, const sbfi_scene_mesh *mesh) {
-  for (uint32_t i = 0; i < c->options->pin_count; i++)
-    if (has_group(c, mesh, c->options->pins[i].group)) return true;
+  for (uint32_t i = 0; i < c->options->pinning.pin_count; i++)
+    if (has_group(c, mesh, c->options->pinning.pins[i].group)) return true;
   return false;
 }
 
@@ -49,8 +49,10 @@ static sbf_status check(sbfi_conversion *c, const sbf_convert_pin *pin) {
 sbf_status sbfi_convert_check_pins(sbfi_conversion *c) {
   const sbf_convert_options *o = c->options;
   sbf_status status = SBF_OK;
-  for (uint32_t i = 0; i < o->pin_count && status == SBF_OK; i++) status = check(c, &o->pins[i]);
-  for (uint32_t i = 0; i < o->hold_count && status == SBF_OK; i++) status = check(c, &o->holds[i]);
+  for (uint32_t i = 0; i < o->pinning.pin_count && status == SBF_OK; i++)
+    status = check(c, &o->pinning.pins[i]);
+  for (uint32_t i = 0; i < o->pinning.section_pin_count && status == SBF_OK; i++)
+    status = check(c, &o->pinning.section_pins[i]);
   return status;
 }
 
@@ -86,9 +88,9 @@ static bool fill_set(
   }
   set->points = (sbf_u32_list){count ? points : NULL, count};
   if (pinned < count) set->weights = (sbf_f32_list){goals, count};
-  set->minimum = sbfi_goal_weight(o->goal_minimum);
-  set->maximum = o->goal_maximum > 0 ? sbfi_goal_weight(o->goal_maximum) : 1;
-  set->stiffness = (float)o->goal_stiffness;
+  set->minimum = sbfi_goal_weight(o->pinning.goal_minimum);
+  set->maximum = o->pinning.goal_maximum > 0 ? sbfi_goal_weight(o->pinning.goal_maximum) : 1;
+  set->stiffness = (float)o->pinning.goal_stiffness;
   if (pin->bone && pin->bone[0]) set->bone = bone_named(c, pin->bone);
   return true;
 }
@@ -104,12 +106,12 @@ static bool fill_sets(sbfi_conversion *c, const sbfi_scene_mesh *mesh, const sbf
 
 bool sbfi_pin_body(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_soft_body *body) {
   const sbf_convert_options *o = c->options;
-  sbf_pin_set *sets = sbfi_convert_allocate(c, (size_t)o->pin_count + 1, sizeof *sets);
+  sbf_pin_set *sets = sbfi_convert_allocate(c, (size_t)o->pinning.pin_count + 1, sizeof *sets);
   uint32_t count;
-  if (!sets || !fill_sets(c, mesh, o->pins, o->pin_count, sets, &count)) return false;
-  for (uint32_t i = 0, set = 0; i < o->pin_count; i++) {
-    if (!has_group(c, mesh, o->pins[i].group)) continue;
-    if (!o->pins[i].bone) sets[set].bone = bone_named(c, o->pins[i].group);
+  if (!sets || !fill_sets(c, mesh, o->pinning.pins, o->pinning.pin_count, sets, &count)) return false;
+  for (uint32_t i = 0, set = 0; i < o->pinning.pin_count; i++) {
+    if (!has_group(c, mesh, o->pinning.pins[i].group)) continue;
+    if (!o->pinning.pins[i].bone) sets[set].bone = bone_named(c, o->pinning.pins[i].group);
     set++;
   }
   body->pins = (sbf_pin_set_list){count ? sets : NULL, count};
@@ -118,10 +120,11 @@ bool sbfi_pin_body(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_soft_bod
 
 bool sbfi_pin_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *skin) {
   const sbf_convert_options *o = c->options;
-  if (o->hold_count == 0) return true;
-  sbf_pin_set *sets = sbfi_convert_allocate(c, o->hold_count, sizeof *sets);
+  if (o->pinning.section_pin_count == 0) return true;
+  sbf_pin_set *sets = sbfi_convert_allocate(c, o->pinning.section_pin_count, sizeof *sets);
   uint32_t count;
-  if (!sets || !fill_sets(c, mesh, o->holds, o->hold_count, sets, &count)) return false;
+  if (!sets || !fill_sets(c, mesh, o->pinning.section_pins, o->pinning.section_pin_count, sets, &count))
+    return false;
   skin->pins = (sbf_pin_set_list){count ? sets : NULL, count};
   return true;
 }

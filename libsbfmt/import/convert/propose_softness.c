@@ -389,9 +389,9 @@ static void report(const work *w) {
 static bool is_wanted_soft(const work *w, const sbf_soft_body *body) {
   const sbf_convert_options *o = w->c->options;
   const sbf_bone *bone = &w->asset->bones.at[body->bone];
-  for (uint32_t i = 0; i < o->soft_count; i++)
-    if (strcmp(o->soft[i], "*") == 0 || strcmp(o->soft[i], bone->name) == 0 ||
-        strcmp(o->soft[i], bone->id) == 0 || strcmp(o->soft[i], body->name) == 0)
+  for (uint32_t i = 0; i < o->softness.soft_count; i++)
+    if (strcmp(o->softness.soft[i], "*") == 0 || strcmp(o->softness.soft[i], bone->name) == 0 ||
+        strcmp(o->softness.soft[i], bone->id) == 0 || strcmp(o->softness.soft[i], body->name) == 0)
       return true;
   return body->pins.count > 0 || body->attachments.count > 0;
 }
@@ -463,12 +463,12 @@ static sbf_status decide(work *w) {
   for (uint32_t b = 0; b < w->asset->bones.count; b++) w->parts[b].why = machine ? MACHINE : by_kind(w, b);
   check_thickness(w);
   select_largest(w);
-  sbf_status status = apply_requests(w, o->soft, o->soft_count, SOFT);
-  if (status == SBF_OK) status = apply_requests(w, o->rigid, o->rigid_count, ASKED);
+  sbf_status status = apply_requests(w, o->softness.soft, o->softness.soft_count, SOFT);
+  if (status == SBF_OK) status = apply_requests(w, o->softness.rigid, o->softness.rigid_count, ASKED);
   if (status != SBF_OK) return status;
   sbf_attributes usual;
   sbf_attributes_init(&usual);
-  double firmness = o->firmness > 0 ? o->firmness : 1, thick = w->thickest / w->size;
+  double firmness = o->softness.firmness > 0 ? o->softness.firmness : 1, thick = w->thickest / w->size;
   double thin = fmin(thick / MIN_USUAL, 1), over = fmax(thick / MAX_USUAL, 1);
   double ratio = MODULUS_RATIO * fmax(thin * thin, MIN_RATIO) * over * over;
   w->modulus = rounded(firmness * ratio * (double)usual.density * GRAVITY * w->size);

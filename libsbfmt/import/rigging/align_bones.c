@@ -433,7 +433,7 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
   if (!outside[0] || s->best.fraction >= MIN_ROTATED)
     snprintf(outside, sizeof outside, "%s bones, but %.0f %% of the mesh has none near",
         outside[0] ? "few" : "no", 100 * uncovered_fraction(s));
-  if (c->options->weights) {
+  if (c->options->rigging.weights) {
     sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_MESH,
         "after its limbs were rotated, %.0f %% of the length of the rig's bones is inside the mesh; outside "
         "are %s: check the bones in --report, or use a rig in the pose of the input",
@@ -516,7 +516,7 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
     r->alignment.is_stated = memcmp(&s.best.m, &r->c->to_asset, sizeof s.best.m) == 0;
     if (status == SBF_OK && s.best.fraction < SBFI_MIN_BONES_INSIDE)
       status = refuse(&s, &scratch);
-    else if (status == SBF_OK && s.best.fraction < CERTAIN && !matched && !r->c->options->weights)
+    else if (status == SBF_OK && s.best.fraction < CERTAIN && !matched && !r->c->options->rigging.weights)
       status = warn_of_misfit(&s, &scratch);
   }
   sbfi_arena_free(&scratch);

@@ -402,7 +402,7 @@ static void warn_of_attached(const sbfi_rigging *r, weights_mode mode) {
 
 static sbf_status weigh_objects(
     sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool by_points, bool alike) {
-  if (mode == MODE_FILE) return sbfi_weigh_by_file(r, r->c->options->weights);
+  if (mode == MODE_FILE) return sbfi_weigh_by_file(r, r->c->options->rigging.weights);
   if (by_points && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_position(r, moved))
     return sbfi_convert_no_memory(r->c);
   if (mode == MODE_MATCH && count_open(r) > (1 - MIN_MATCHED) * r->input.mesh.positions.count)
@@ -421,7 +421,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   sbf_status status = mode == MODE_ANY ? sbfi_weigh_by_own_skin(r) : SBF_OK;
   bool alike = by_points;
   if (status == SBF_OK) status = sbfi_weigh_shells(r);
-  if (status == SBF_OK && mode == MODE_NAMED && !has_named_objects(r) && !r->c->options->shell_count)
+  if (status == SBF_OK && mode == MODE_NAMED && !has_named_objects(r) && !r->c->options->rigging.shell_count)
     status = refuse_nameless(r);
   if (status == SBF_OK) status = align_rest(r, mode, &alike);
   if (status != SBF_OK) return status;
@@ -444,17 +444,17 @@ static sbf_status refuse_method(const sbfi_conversion *c) {
   return sbfi_diagnose(c->error, SBF_CODE_BAD_CALL,
       c->rig ? "--weights %s is for a skeleton in another file, but %s has its own"
              : "--weights %s needs bones, but %s has none: add --rig FILE",
-      c->options->weights, c->scene->file);
+      c->options->rigging.weights, c->scene->file);
 }
 
 sbf_status sbfi_rig_input(sbfi_conversion *c) {
-  weights_mode mode = mode_of(c->options->weights);
+  weights_mode mode = mode_of(c->options->rigging.weights);
   bool own_rig = c->rig == c->scene;
   if (mode != MODE_ANY && (!c->rig || (own_rig && mode < MODE_COMPUTE))) return refuse_method(c);
-  if (c->options->shell_count && (!c->rig || own_rig))
+  if (c->options->rigging.shell_count && (!c->rig || own_rig))
     return sbfi_diagnose(c->error, SBF_CODE_BAD_CALL,
         "'%s' cannot be assigned to a bone: --shell needs a skeleton in another file, --rig FILE",
-        c->options->shells[0].group);
+        c->options->rigging.shells[0].group);
   if (!c->rig || c->asset->bones.count == 0 || c->scene->mesh_count == 0) return SBF_OK;
   if (own_rig && mode == MODE_ANY) return SBF_OK;
   if (!own_rig && (mode == MODE_ANY || mode == MODE_COMPUTE) && !sbfi_join_skin_pieces(c))

@@ -34,8 +34,8 @@ static bool is_named_like_bone(const search *s, uint32_t mesh) {
 /* Whether --shell gives the object or a shell of it, OBJECT#N, to a bone. */
 static bool is_assigned(const search *s, uint32_t mesh) {
   size_t length = strlen(name_of(s, mesh));
-  for (size_t i = 0; i < s->c->options->shell_count; i++) {
-    const char *group = s->c->options->shells[i].group;
+  for (size_t i = 0; i < s->c->options->rigging.shell_count; i++) {
+    const char *group = s->c->options->rigging.shells[i].group;
     if (strncmp(group, name_of(s, mesh), length) == 0 && (!group[length] || group[length] == '#'))
       return true;
   }

@@ -135,7 +135,7 @@ static bool is_of_another(const sbfi_weights_figures *f) {
 
 static sbf_status check_extent(const sbfi_rigging *r, const sbfi_weights *computed) {
   const sbfi_weights_figures *f = &computed->figures;
-  if (!(r->alignment.inside > 0) || r->c->options->weights || !is_of_another(f)) return SBF_OK;
+  if (!(r->alignment.inside > 0) || r->c->options->rigging.weights || !is_of_another(f)) return SBF_OK;
   if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
   return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
       "the bones of %s are inside the mesh, but extend over only %.0f %% of its length, and half of the "
@@ -169,7 +169,7 @@ static bool has_parent_nodes(const sbfi_rigging *r) {
 /* The bones of a fish also fit a caterpillar of equal length, so a rig with a mesh must agree in size. If
  * the units agree it may be intended, as for two characters by one author. */
 static sbf_status check_other_mesh(const sbfi_rigging *r) {
-  if (!(r->mean_gap > 0) || r->c->options->weights || has_parent_nodes(r)) return SBF_OK;
+  if (!(r->mean_gap > 0) || r->c->options->rigging.weights || has_parent_nodes(r)) return SBF_OK;
   if (is_scaled_by_unit(r)) {
     char lie[60] = ""; /* empty if the rig has no two joints to interpolate */
     if (r->alignment.inside > 0)

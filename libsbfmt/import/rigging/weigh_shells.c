@@ -80,7 +80,7 @@ static sbf_status apply_request(
 sbf_status sbfi_weigh_shells(sbfi_rigging *r) {
   const sbf_convert_options *options = r->c->options;
   uint32_t count = r->input.mesh.positions.count;
-  if (!options->shell_count) return SBF_OK;
+  if (!options->rigging.shell_count) return SBF_OK;
   uint32_t *parents = sbfi_arena_allocate(&r->c->scratch, (size_t)count + 1, sizeof *parents);
   if (!parents) return sbfi_convert_no_memory(r->c);
   sbfi_sets_begin(parents, count);
@@ -89,10 +89,10 @@ sbf_status sbfi_weigh_shells(sbfi_rigging *r) {
     for (uint32_t k = 1; k < r->input.mesh.polygon_sizes.at[p]; k++)
       sbfi_sets_join(parents, corners[0], corners[k]);
   sbf_status status = SBF_OK;
-  for (uint32_t i = 0; status == SBF_OK && i < options->shell_count; i++) {
+  for (uint32_t i = 0; status == SBF_OK && i < options->rigging.shell_count; i++) {
     shell_assignment assignment;
-    status = read_assignment(r, &options->shells[i], &assignment);
-    if (status == SBF_OK) status = apply_request(r, &assignment, options->shells[i].group, parents);
+    status = read_assignment(r, &options->rigging.shells[i], &assignment);
+    if (status == SBF_OK) status = apply_request(r, &assignment, options->rigging.shells[i].group, parents);
   }
   return status;
 }

@@ -95,9 +95,34 @@ typedef struct sbf_build_options {
   double render_error_m;
 } sbf_build_options;
 
+/* Lattices that a build made. */
+typedef struct sbf_build_lattices {
+  uint32_t tetrahedra;                       /* number of tetrahedra */
+  double min_dihedral_deg, max_dihedral_deg; /* degrees; 0 without tetrahedra */
+  uint64_t dihedrals[18];                    /* histogram of the dihedral angles in bins of ten degrees */
+  double volume;                             /* m^3, of the tetrahedra */
+  double farthest_m;                         /* m; greatest distance of an embedded vertex from its lattice */
+  /* Points in parts thinner than two elements, where the lattice is thicker than the body. All other parts
+   * are at least two elements thick. */
+  uint32_t thickened_points;
+} sbf_build_lattices;
+
+/* Calibration of the levels of a build: of their moduli or their spring stiffnesses. */
+typedef struct sbf_build_calibration {
+  uint32_t count;                /* calibrated levels; the other fields are 0 without any */
+  double min_factor, max_factor; /* smallest and greatest factor on moduli or stiffnesses */
+  /* Greatest error over the levels. Of lattices: relative error of the compliance under any load. Of springs:
+   * fraction of the surface's displacement that no factor can correct. */
+  double max_residual;
+  double max_period_error; /* greatest relative error of the period; 0 for springs */
+} sbf_build_calibration;
+
 /* Results of a build. Counts are of derived parts. */
 typedef struct sbf_build_report {
   uint32_t bodies;                         /* bodies that got a level */
+  uint32_t sections;                       /* cut from skinned meshes */
+  uint32_t levels;                         /* levels other than the finest of each body */
+  uint32_t render_levels;                  /* render levels of render meshes */
   uint32_t interior_points;                /* points added inside the bodies */
   uint32_t springs[SBF_SPRING_KIND_COUNT]; /* by sbf_spring_kind */
   uint32_t inert_springs; /* springs left out because they would join two pinned points; `springs` does not
@@ -106,27 +131,9 @@ typedef struct sbf_build_report {
   uint32_t hulls;         /* hulls of rigid bodies */
   uint32_t embedded_vertices;                /* vertices of render meshes embedded in at least one body */
   uint32_t warnings;                         /* warnings reported */
-  uint32_t tetrahedra;                       /* tetrahedra of lattices */
-  double min_dihedral_deg, max_dihedral_deg; /* of the tetrahedra; 0 without tetrahedra */
-  uint64_t dihedrals[18];                    /* histogram of the angles in bins of ten degrees */
-  double lattice_volume;                     /* m^3, volume of the tetrahedra */
-  double farthest_m;                         /* m; greatest distance of an embedded vertex from its lattice */
-  /* Points of lattices in parts thinner than two elements, where the lattice is thicker than the body. All
-   * other parts are at least two elements thick. */
-  uint32_t thickened_points;
-  uint32_t sections;           /* cut from skinned meshes */
-  uint32_t levels;             /* levels other than the finest of each body */
-  uint32_t calibrated;         /* calibrated lattices; the next four fields are about these */
-  double min_factor;           /* smallest factor on moduli */
-  double max_factor;           /* greatest factor on moduli */
-  double max_residual;         /* greatest relative error of the compliance under any load */
-  double max_period_error;     /* greatest relative error of the period */
-  uint32_t render_levels;      /* render levels of render meshes */
-  uint32_t calibrated_springs; /* calibrated levels of springs; the next three fields are about these */
-  double min_spring_factor;    /* smallest factor on stiffnesses */
-  double max_spring_factor;    /* greatest factor on stiffnesses */
-  /* Greatest fraction, over the levels, of the surface's displacement that no factor can correct. */
-  double max_spring_residual;
+  sbf_build_lattices lattices;               /* all lattices together */
+  sbf_build_calibration lattice_calibration; /* of lattices */
+  sbf_build_calibration spring_calibration;  /* of levels of springs */
 } sbf_build_report;
 
 /* Makes `*built` from `asset`, which is not changed and need not outlive the call. On failure `*built` is

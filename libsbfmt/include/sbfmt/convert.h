@@ -57,18 +57,8 @@ typedef struct sbf_convert_attachment {
   const char *holder; /* name of the object or the bone */
 } sbf_convert_attachment;
 
-/* Settings of a conversion. */
-typedef struct sbf_convert_options {
-  size_t struct_size;             /* sizeof(sbf_convert_options), or 0 for this version's */
-  const sbf_allocator *allocator; /* NULL: malloc */
-  const char *rig;                /* a file with the skeleton, if the input has none; NULL: none */
-  double unit_m;                  /* metres per unit of the input; 0: as the file says, else 1 */
-  char up;                        /* 'y' or 'z': the input's upward axis; 0: as the file says, else y */
-  bool no_gait;                   /* do not propose a gait */
-  const char *import_helper; /* path of the program sbfmt-import; NULL: searched in its usual locations */
-  /* Warnings, and errors that did not stop the conversion; may be NULL. */
-  void (*report)(void *user, const sbf_diagnostic *diagnostic);
-  void *user; /* for the callback */
+/* Points of soft bodies to pin. */
+typedef struct sbf_convert_pinning {
   /* Each mesh that has one of these groups becomes a soft body as a whole, pinned at the points with weights;
    * its skin, if any, is ignored. Weight 1 pins rigidly, a lower weight pulls with the stiffness
    *
@@ -80,54 +70,75 @@ typedef struct sbf_convert_options {
   uint32_t pin_count;                /* number of pins */
   double goal_minimum, goal_maximum; /* 0..1; a maximum of 0 counts as 1 */
   double goal_stiffness;             /* N/m at weight 1; 0: from the body's modulus and the point's mass */
-  sbf_convert_summary *summary;      /* receives the content read; may be NULL */
-  /* Proposes limits for joints that have none, from the names and positions of the bones. Bones of skins then
-   * get joints too. */
-  sbf_convert_limits limits;
-  /* Keep the modulus of bodies without pins at its default even if it would not bear their weight, for
-   * callers that set the material afterwards (sbfmt/materials.h). */
-  bool keep_modulus;
   /* Pins inside sections cut from a skin. They work like `pins`, but the skin stays one mesh. Without a bone,
    * the painted points are pinned to the bone of the section they lie in. */
-  const sbf_convert_pin *holds; /* (hold_count) */
-  uint32_t hold_count;          /* number of holds */
-  /* Attachments to rigid hulls. They pin every point of a soft body inside the hull, on each level that a
-   * build makes. */
-  const sbf_convert_attachment *attachments; /* (attachment_count) */
-  uint32_t attachment_count;                 /* number of attachments */
-  /* Source of the bone weights of the input's points, if the rig is another file: "named" (objects named
-   * after nodes of the rig), "match" (points of the rig's own mesh at the same positions), "transfer" (the
-   * nearest surface of a similar mesh), "compute" (from the bones only), or the path of a file of weights,
-   * .csv or .json with vertex, bone and weight, vertices from 0 as in the OBJ. NULL: the first of these that
-   * fits each object. */
+  const sbf_convert_pin *section_pins; /* (section_pin_count) */
+  uint32_t section_pin_count;          /* number of section_pins */
+} sbf_convert_pinning;
+
+/* How a rig in another file moves the input. */
+typedef struct sbf_convert_rigging {
+  /* Source of the bone weights of the input's points: "named" (objects named after nodes of the rig), "match"
+   * (points of the rig's own mesh at the same positions), "transfer" (the nearest surface of a similar mesh),
+   * "compute" (from the bones only), or the path of a file of weights, .csv or .json with vertex, bone and
+   * weight, vertices from 0 as in the OBJ. NULL: the first of these that fits each object. */
   const char *weights;
+  /* Objects of the input that one bone moves; this overrides all other weights. `group` is the object's name,
+   * or NAME#NUMBER for one of its shells (connected components), ordered by their first points and counted
+   * from 1. `bone` moves it. */
+  const sbf_convert_pin *shells; /* (shell_count) */
+  uint32_t shell_count;          /* number of shells */
   /* If the conversion fails because the rig lies outside the input (IMPORT_RIG_OUTSIDE), receives an asset
    * that shows both in their best alignment: bones and one render mesh. The caller frees it. Otherwise not
    * written. May be NULL. */
   sbf_asset **misfit;
-  /* Objects of the input that one bone of a rig in another file moves; this overrides all other weights.
-   * `group` is the object's name, or NAME#NUMBER for one of its shells (connected components), ordered by
-   * their first points and counted from 1. `bone` moves it. */
-  const sbf_convert_pin *shells; /* (shell_count) */
-  uint32_t shell_count;          /* number of shells */
+} sbf_convert_rigging;
+
+/* Parts of a skin that become sections. By default these are parts whose motion a viewer would see. The
+ * defaults leave out machines (pieces on one bone each), hands, feet, lower limbs, faces, props, hard
+ * materials, and parts that are thin or small relative to the whole; there are at most eight. Each part gets
+ * a section recipe, marked as proposed. If a character has such a skin, objects on its bones are drawn only
+ * and get no bodies, unless `soft` or a pin names them. */
+typedef struct sbf_convert_softness {
+  double firmness;          /* the modulus is this times 1.5 rho g times the largest extent; 0 counts as 1 */
+  const char *const *soft;  /* (soft_count) names or ids of bones that are always soft; "*": all bones */
+  uint32_t soft_count;      /* number of soft */
+  const char *const *rigid; /* (rigid_count) the same of bones that are never soft; precedes `soft` */
+  uint32_t rigid_count;     /* number of rigid */
+} sbf_convert_softness;
+
+/* Settings of a conversion. */
+typedef struct sbf_convert_options {
+  size_t struct_size;             /* sizeof(sbf_convert_options), or 0 for this version's */
+  const sbf_allocator *allocator; /* NULL: malloc */
+  const char *rig;                /* a file with the skeleton, if the input has none; NULL: none */
+  double unit_m;                  /* metres per unit of the input; 0: as the file says, else 1 */
+  char up;                        /* 'y' or 'z': the input's upward axis; 0: as the file says, else y */
   /* The axis of the input along which the character looks, perpendicular to the upward one: "x", "-x", "y",
    * "-y", "z" or "-z". It becomes +Z and disables the automatic rotation. NULL: found from the legs. */
   const char *forward;
-  /* Parts of a skin that become sections. By default these are parts whose motion a viewer would see. The
-   * defaults leave out machines (pieces on one bone each), hands, feet, lower limbs, faces, props, hard
-   * materials, and parts that are thin or small relative to the whole; there are at most eight. Their modulus
-   * is 1.5 rho g times the largest extent, times `firmness`; 0 counts as 1. Each part gets a section recipe,
-   * marked as proposed. `soft` and `rigid` are names or ids of bones that are soft or rigid regardless of the
-   * defaults; "*": all bones; `rigid` takes precedence over `soft`. If a character has such a skin, objects
-   * on its bones are drawn only and get no bodies, unless `soft` or a pin names them. */
-  double firmness;
-  const char *const *soft;  /* (soft_count) */
-  uint32_t soft_count;      /* number of soft */
-  const char *const *rigid; /* (rigid_count) */
-  uint32_t rigid_count;     /* number of rigid */
+  bool no_gait; /* do not propose a gait */
   /* Kind of gait: "walk", "swim", "fly", "slither", "crawl", "roll" or "none"; NULL: found from the shape of
    * the rig, its names and its clips (GAIT_KIND). */
   const char *gait;
+  const char *import_helper; /* path of the program sbfmt-import; NULL: searched in its usual locations */
+  /* Warnings, and errors that did not stop the conversion; may be NULL. */
+  void (*report)(void *user, const sbf_diagnostic *diagnostic);
+  void *user;                   /* for the callback */
+  sbf_convert_summary *summary; /* receives the content read; may be NULL */
+  /* Proposes limits for joints that have none, from the names and positions of the bones. Bones of skins then
+   * get joints too. */
+  sbf_convert_limits limits;
+  /* Keep the modulus of bodies without pins at its default even if it would not carry their weight, for
+   * callers that set the material afterwards (sbfmt/materials.h). */
+  bool keep_modulus;
+  sbf_convert_pinning pinning; /* points to pin */
+  /* Attachments to rigid hulls. They pin every point of a soft body inside the hull, on each level that a
+   * build makes. */
+  const sbf_convert_attachment *attachments; /* (attachment_count) */
+  uint32_t attachment_count;                 /* number of attachments */
+  sbf_convert_rigging rigging;               /* for a rig in another file */
+  sbf_convert_softness softness;             /* parts of a skin that become soft */
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. The rig's node tree assigns sections to bones; names only

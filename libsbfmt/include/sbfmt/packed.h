@@ -69,7 +69,7 @@ typedef struct sbf_load_options {
    * and weights of skins, pins and embeddings outside their ranges. Only sbf_fix and sbf_asset_free may be
    * called with the asset. glTF: also finds meshes, clips and images that another program renumbered, and
    * calls `report` for each (GLTF_RENUMBERED). */
-  bool mendable;
+  bool repairable;
   /* XML: lists passed in memory instead of in the text. An element of a list with the attribute `given`, as
    * <positions given="2"/>, begins with a copy of the items of given_lists[2], which are checked like any
    * others. For programs that create a document and load it at once. Without such lists the attribute is

@@ -58,7 +58,7 @@ typedef struct sbf_fix_result {
  * repeated pins and springs, and springs without effect are removed. Derived parts that are stale, before or
  * after this, are built again with their settings. All other faults stay.
  *
- * `asset` may be loaded with sbf_load_options.mendable. SBF_BAD_INPUT, with the first fault in `*error` and
+ * `asset` may be loaded with sbf_load_options.repairable. SBF_BAD_INPUT, with the first fault in `*error` and
  * no asset, if the structure has other faults. `options`, `result` and `error` may be NULL. Thread safe. */
 SBF_API sbf_status sbf_fix(const sbf_asset *asset, const sbf_fix_options *options, sbf_asset **fixed,
     sbf_fix_result *result, sbf_diagnostic *error);

@@ -3,7 +3,7 @@
  * Implicitly coupled soft bodies need few (attached_bodies.c). All others take the bones' steps: a step is no
  * longer than the soft body's own substep limit, and than the limit from each bone's frequency on its soft
  * bodies. Both limits are computed again after each step, because compressed bodies stiffen and a step that
- * has become too long makes undamped bodies gain energy; the rest of the tick is then divided anew. A point
+ * has become too long makes undamped bodies gain energy; the rest of the tick is then divided again. A point
  * also moves by at most a fraction of a cell against its bones in a step, so that the stiffening is noticed
  * in time. Fast impacts bound the step of all (soft/solvers/motion.h). */
 #include "coupling/ragdoll/ragdoll.h"

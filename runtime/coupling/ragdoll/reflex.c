@@ -39,18 +39,18 @@ static void set_all(sbri_character *c, sbr_rigid_mode mode, float fraction) {
 
 void sbri_reflex_begin(sbri_character *c, const sbr_fall_definition *fall) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  drive->posture = SBR_POSTURE_FALLING;
-  drive->posture_s = drive->still_s = 0;
-  drive->drive_fraction = sbri_clamp(fall->drive_fraction, 0, 1);
-  drive->rest_s = sbri_clamp(fall->rest_s, 0, 1e6f);
-  drive->rise_s = sbri_clamp(fall->rise_s, 0.1f, 1e6f);
-  set_all(c, SBR_RIGID_DRIVEN, drive->drive_fraction);
+  drive->fall.posture = SBR_POSTURE_FALLING;
+  drive->fall.posture_s = drive->fall.still_s = 0;
+  drive->fall.drive_fraction = sbri_clamp(fall->drive_fraction, 0, 1);
+  drive->fall.rest_s = sbri_clamp(fall->rest_s, 0, 1e6f);
+  drive->fall.rise_s = sbri_clamp(fall->rise_s, 0.1f, 1e6f);
+  set_all(c, SBR_RIGID_DRIVEN, drive->fall.drive_fraction);
 }
 
 void sbri_reflex_end(sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  if (drive->posture == SBR_POSTURE_UPRIGHT) return;
-  drive->posture = SBR_POSTURE_UPRIGHT;
+  if (drive->fall.posture == SBR_POSTURE_UPRIGHT) return;
+  drive->fall.posture = SBR_POSTURE_UPRIGHT;
   set_all(c, SBR_RIGID_KINEMATIC, 1);
   sbri_rigid_wake(c);
 }
@@ -120,29 +120,31 @@ static bool has_arrived(const sbri_character *c) {
 }
 
 static float strength_of(const sbri_rigid_drive_state *drive) {
-  float t = sbri_clamp(drive->posture_s / drive->rise_s, 0, 1);
+  float t = sbri_clamp(drive->fall.posture_s / drive->fall.rise_s, 0, 1);
   return t * t * (3 - 2 * t);
 }
 
 bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
   sbri_rigid_drive_state *drive = c->model->rigid.body_count ? sbri_rigid_drive(c) : NULL;
   float tick_s = (float)world->time.tick_s * c->time_scale;
-  if (!drive || drive->posture == SBR_POSTURE_UPRIGHT) return false;
-  drive->posture_s += tick_s;
-  if (drive->posture == SBR_POSTURE_FALLING) {
-    drive->still_s = fastest_of(c) <= STILL_M_S ? drive->still_s + tick_s : 0;
-    if (drive->still_s < drive->rest_s && drive->posture_s < LONGEST_FALL_S + drive->rest_s) return false;
-    drive->posture = SBR_POSTURE_RISING;
-    drive->posture_s = 0;
+  if (!drive || drive->fall.posture == SBR_POSTURE_UPRIGHT) return false;
+  drive->fall.posture_s += tick_s;
+  if (drive->fall.posture == SBR_POSTURE_FALLING) {
+    drive->fall.still_s = fastest_of(c) <= STILL_M_S ? drive->fall.still_s + tick_s : 0;
+    if (drive->fall.still_s < drive->fall.rest_s &&
+        drive->fall.posture_s < LONGEST_FALL_S + drive->fall.rest_s)
+      return false;
+    drive->fall.posture = SBR_POSTURE_RISING;
+    drive->fall.posture_s = 0;
     set_standing_pose(world, c);
     return true;
   }
   float w = strength_of(drive);
-  bool up = w >= 1 && (has_arrived(c) || drive->posture_s > drive->rise_s + LATE_S);
+  bool up = w >= 1 && (has_arrived(c) || drive->fall.posture_s > drive->fall.rise_s + LATE_S);
   if (up)
     sbri_reflex_end(c);
   else
-    set_all(c, SBR_RIGID_DRIVEN, drive->drive_fraction + (1 - drive->drive_fraction) * w);
+    set_all(c, SBR_RIGID_DRIVEN, drive->fall.drive_fraction + (1 - drive->fall.drive_fraction) * w);
   return false;
 }
 
@@ -153,7 +155,7 @@ static sbf_vec3 bounded(sbf_vec3 v, float max) {
 
 void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *t, float step_s) {
   const sbri_rigid_drive_state *drive = t->drive;
-  if (drive->posture != SBR_POSTURE_RISING) return;
+  if (drive->fall.posture != SBR_POSTURE_RISING) return;
   float fraction = strength_of(drive), w = TWO_PI * (FIRST_HZ + (LAST_HZ - FIRST_HZ) * fraction);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     if (!is_affected(c, b) || !sbri_rigid_is_simulated(c, b)) continue;

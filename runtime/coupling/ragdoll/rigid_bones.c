@@ -32,7 +32,7 @@ void sbri_rigid_apply_impulse(sbri_character *c, uint32_t rigid_body, sbf_vec3 a
 void sbri_rigid_wake(sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   drive->asleep = drive->idle_ticks = drive->slow_ticks = drive->any_dynamic = 0;
-  drive->damping_ticks = 0, drive->damped_max = drive->damped_before = 0;
+  drive->decay.ticks = 0, drive->decay.max = drive->decay.before = 0;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
     drive->any_dynamic |= sbri_rigid_is_simulated(c, b);
   sbri_character_wake(c);

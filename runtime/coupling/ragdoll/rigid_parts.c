@@ -8,7 +8,7 @@
 static const float IDLE_1_S = 0.01f;
 /* The same for decaying motion: its maximum speed falls by this factor within the period of a swinging hand.
  */
-static const float DAMPING_1_S = 0.2f, CALMING = 0.8f, DAMPING_S = 0.5f;
+static const float DAMPING_1_S = 0.2f, DECAY_FACTOR = 0.8f, DAMPING_S = 0.5f;
 
 /* ---- Stepping ---- */
 
@@ -41,16 +41,16 @@ static bool is_decaying(const sbr_world *world, const sbri_character *c, float f
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   float tick_s = (float)world->time.tick_s * c->time_scale;
   if (!(fraction <= DAMPING_1_S)) {
-    drive->damping_ticks = 0, drive->damped_max = drive->damped_before = 0;
+    drive->decay.ticks = 0, drive->decay.max = drive->decay.before = 0;
     return false;
   }
-  drive->damped_max = fraction > drive->damped_max ? fraction : drive->damped_max;
-  if (++drive->damping_ticks < world->sleep_ticks || (float)drive->damping_ticks * tick_s < DAMPING_S)
+  drive->decay.max = fraction > drive->decay.max ? fraction : drive->decay.max;
+  if (++drive->decay.ticks < world->sleep_ticks || (float)drive->decay.ticks * tick_s < DAMPING_S)
     return false;
-  bool calms = drive->damped_max <= CALMING * drive->damped_before;
-  drive->damped_before = drive->damped_max;
-  drive->damping_ticks = 0, drive->damped_max = 0;
-  return calms;
+  bool decays = drive->decay.max <= DECAY_FACTOR * drive->decay.before;
+  drive->decay.before = drive->decay.max;
+  drive->decay.ticks = 0, drive->decay.max = 0;
+  return decays;
 }
 
 static void may_sleep(const sbr_world *world, sbri_character *c) {
@@ -58,9 +58,9 @@ static void may_sleep(const sbr_world *world, sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   if (!world->sleep_ticks) return;
   float fraction = max_relative_speed(c);
-  bool is_idle = fraction <= IDLE_1_S, calms = is_decaying(world, c, fraction);
+  bool is_idle = fraction <= IDLE_1_S, decays = is_decaying(world, c, fraction);
   drive->idle_ticks = is_idle ? drive->idle_ticks + 1 : 0;
-  if (!calms && drive->idle_ticks < world->sleep_ticks) return;
+  if (!decays && drive->idle_ticks < world->sleep_ticks) return;
   drive->asleep = 1;
   drive->last_step_s = 0;
   for (uint32_t b = 0; b < model->body_count; b++)
@@ -123,7 +123,7 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   parts->coupled = (sbri_coupled){.world = world, .character = c, .animated = sbri_animated(c)};
   if (drive->asleep &&
       (world->colliders.is_moving || has_moved_support(c) || !sbri_coupled_sleep(&parts->coupled)))
-    drive->asleep = drive->idle_ticks = 0, drive->damped_before = 0;
+    drive->asleep = drive->idle_ticks = 0, drive->decay.before = 0;
   if (drive->asleep || !c->rigid_work) {
     sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_vec3(0, 0, 0), sbri_pose(c));
     return false;

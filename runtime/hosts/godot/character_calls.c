@@ -16,9 +16,9 @@ CALL(drive) {
     wanted[i] = gd_as_float(arguments[i]);
     if (!soft_character_fits(one, "drive", wanted[i], -SOFT_MAX, SOFT_MAX)) return;
   }
-  one->settings.forward_speed = wanted[0];
-  one->settings.sideways_speed = wanted[1];
-  one->settings.turn_speed = wanted[2];
+  one->settings.drive.forward_speed = wanted[0];
+  one->settings.drive.sideways_speed = wanted[1];
+  one->settings.drive.turn_speed = wanted[2];
   soft_character_drive(one);
 }
 
@@ -196,11 +196,11 @@ const gd_method soft_character_methods[] = {
         {WITH("soft_body", INT), WITH("vertex", INT), WITH("force", VECTOR3), WITH("seconds", FLOAT)}},
     {"get_nearest_vertex", soft_character_get_nearest_vertex, ANSWER(INT), 2,
         {WITH("soft_body", INT), WITH("position", VECTOR3)}},
-    {"hold_vertex", soft_character_hold_vertex, NOTHING, 3,
+    {"grab_vertex", soft_character_grab_vertex, NOTHING, 3,
         {WITH("soft_body", INT), WITH("vertex", INT), WITH("target", VECTOR3)}},
     {"release_vertex", soft_character_release_vertex, ANSWER(BOOL), 2,
         {WITH("soft_body", INT), WITH("vertex", INT)}},
-    {"get_hold_force", soft_character_get_hold_force, ANSWER(VECTOR3), 2,
+    {"get_grab_force", soft_character_get_grab_force, ANSWER(VECTOR3), 2,
         {WITH("soft_body", INT), WITH("vertex", INT)}},
     {"get_pin_reactions", soft_character_get_pin_reactions, ANSWER(PACKED_VECTOR3_ARRAY), 1,
         {WITH("soft_body", INT)}},

@@ -76,13 +76,13 @@ CALL(apply_force) {
 
 /* ---- Dragging ---- */
 
-static bool hold(soft_character *one, sbf_vec3 target) {
+static bool drag_to(soft_character *one, sbf_vec3 target) {
   sbf_diagnostic error;
-  sbr_soft_hold drawn = sbr_default_soft_hold();
+  sbr_vertex_grab drawn = sbr_default_vertex_grab();
   surface_vertex at = one->grab.vertex;
   drawn.target = (sbr_double3){(double)target.x + (double)at.position.x,
       (double)target.y + (double)at.position.y, (double)target.z + (double)at.position.z};
-  sbf_status status = sbr_character_hold_vertex(one->world, one->id, at.soft_body, at.vertex, &drawn, &error);
+  sbf_status status = sbr_character_grab_vertex(one->world, one->id, at.soft_body, at.vertex, &drawn, &error);
   report(one, status, &error);
   return status == SBF_OK;
 }
@@ -102,7 +102,7 @@ CALL(grab) {
   if (one->world && find_vertex(one, "grab", point, &one->grab.vertex)) {
     sbf_vec3 *arm = &one->grab.vertex.position; /* from the point to the vertex from now on */
     *arm = (sbf_vec3){arm->x - point.x, arm->y - point.y, arm->z - point.z};
-    one->grab.is_active = hold(one, point);
+    one->grab.is_active = drag_to(one, point);
   }
   gd_assign(result, gd_bool(one->grab.is_active));
 }
@@ -114,7 +114,7 @@ CALL(drag) {
   if (!one->grab.is_active)
     soft_character_error(one, "drag: nothing is grabbed: call grab first and check its result");
   else
-    hold(one, gd_as_vector3(arguments[0]));
+    drag_to(one, gd_as_vector3(arguments[0]));
 }
 
 CALL(is_grabbed) {

@@ -58,17 +58,17 @@ static bool make_world(soft_character *one) {
     return false;
   }
   physics_ground_level(one->physics.ground, one->placement.flat_ground_y);
-  character.ground = one->settings.ground == SOFT_GROUND_FLAT && !one->is_in_editor
+  character.ground = one->settings.collision.ground == SOFT_GROUND_FLAT && !one->is_in_editor
                          ? sbr_ground_flat(one->placement.flat_ground_y)
                          : physics_ground_of(one->physics.ground);
-  if (one->settings.use_threads) world.tasks = worker_pool_tasks();
+  if (one->settings.simulation.use_threads) world.tasks = worker_pool_tasks();
   world.control_tick_s = one->model->asset->environment.control_tick;
   world.has_gravity = one->model->options.has_gravity;
   world.gravity = one->model->options.gravity;
   character.position = (sbr_double3){node_transform.origin.x, 0, node_transform.origin.z};
   character.heading = transform_heading(&node_transform);
   character.scale = one->scale;
-  character.hold = one->settings.hold_pose;
+  character.hold_pose = one->settings.simulation.hold_pose;
   if (!shared_world_join(one, &world)) return false;
   if (sbr_character_create(one->world, one->model->model, &character, &one->id, &error) == SBF_OK) {
     soft_character_loose_begin(one);
@@ -110,7 +110,7 @@ void soft_character_make(soft_character *one) {
   soft_character_unmake(one);
   pose_driver_clear(one);
   if (inside && asset && soft_asset_of(asset)) {
-    const soft_settings *s = &one->settings;
+    const soft_simulation_settings *s = &one->settings.simulation;
     sbf_vec3 g = soft_asset_of(asset)->environment.gravity;
     float k = (float)s->gravity_scale;
     sbr_model_options options = sbr_default_model_options();
@@ -128,11 +128,11 @@ void soft_character_make(soft_character *one) {
       if (kept.bytes && sbr_world_restore_snapshot(one->world, kept.bytes, kept.size) == SBF_OK) {
         one->placement.is_placed = true;
         one->loose.frame = frame;
-        if (s->ground == SOFT_GROUND_PHYSICS) physics_ground_query(one);
+        if (one->settings.collision.ground == SOFT_GROUND_PHYSICS) physics_ground_query(one);
       } else {
         free(one->clip_player);
         one->clip_player = NULL;
-        one->placement.is_placed = s->ground == SOFT_GROUND_FLAT;
+        one->placement.is_placed = one->settings.collision.ground == SOFT_GROUND_FLAT;
       }
       clip_player_remade(one);
       soft_character_drive(one);
@@ -151,7 +151,7 @@ void soft_character_make(soft_character *one) {
 }
 
 void soft_character_drive(soft_character *one) {
-  const soft_settings *s = &one->settings;
+  const soft_drive_settings *s = &one->settings.drive;
   if (!one->world) return;
   sbr_character_set_drive(
       one->world, one->id, (float)s->forward_speed, (float)s->sideways_speed, (float)s->turn_speed);

@@ -230,8 +230,8 @@ void character_mesh_apply_settings(character_mesh *mesh, const soft_character *o
   for (uint32_t i = 0; mesh && i < mesh->count; i++) {
     const gd_variant *instance = &mesh->meshes[i].instance;
     GD_DO(instance, "set_material_override", gd_copy(&one->resources.material));
-    GD_DO(instance, "set_cast_shadows_setting", gd_int(one->settings.cast_shadow));
-    GD_DO(instance, "set_layer_mask", gd_int(one->settings.layers));
+    GD_DO(instance, "set_cast_shadows_setting", gd_int(one->settings.display.cast_shadow));
+    GD_DO(instance, "set_layer_mask", gd_int(one->settings.display.layers));
   }
 }
 

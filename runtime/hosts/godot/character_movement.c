@@ -13,7 +13,7 @@ static float wrapped(float angle) {
 
 /* Turn towards the velocity in one frame, rad. */
 static float turn_of_frame(const soft_character *one, sbf_vec3 velocity, float frame_s) {
-  float max = (float)one->settings.max_turn_speed * frame_s;
+  float max = (float)one->settings.drive.max_turn_speed * frame_s;
   if (velocity.x * velocity.x + velocity.z * velocity.z < 1e-8f) return 0;
   return fminf(
       fmaxf(wrapped(atan2f(velocity.x, velocity.z) - transform_heading(&one->placement.shown_at)), -max),

@@ -7,7 +7,7 @@
 
 void soft_character_apply_part_settings(soft_character *one) {
   if (!one->world || one->is_in_editor) return;
-  if (!one->settings.collision_layer) {
+  if (!one->settings.collision.collision_layer) {
     physics_parts_free(one->physics.parts);
     one->physics.parts = NULL;
   } else if (!one->physics.parts) {

@@ -77,7 +77,7 @@ double soft_character_ground_height(const soft_character *one, double x, double 
 void soft_character_set_position(soft_character *one, sbf_vec3 position, float heading) {
   one->placement.shown_at = upright(position, heading, one->scale);
   one->placement.last_origin = position;
-  if (one->settings.ground == SOFT_GROUND_PHYSICS) {
+  if (one->settings.collision.ground == SOFT_GROUND_PHYSICS) {
     physics_bodies_query(one, true);
     physics_ground_query(one);
   }
@@ -184,7 +184,7 @@ bool soft_character_prepare(soft_character *one) {
   if (placed) {
     soft_character_set_position(one, now.origin, transform_heading(&now));
     one->placement.is_placed = true;
-  } else if (one->settings.ground == SOFT_GROUND_PHYSICS && !one->settings.paused) {
+  } else if (one->settings.collision.ground == SOFT_GROUND_PHYSICS && !one->settings.paused) {
     physics_bodies_query(one, false);
   }
   soft_character_pause(one);

@@ -54,18 +54,18 @@ bool soft_character_fits(const soft_character *one, const char *name, double val
   return false;
 }
 
-/* A simple setting: its getter and setter, and the action after a change. */
-#define SETTING(name, type, low, high, after)                                                                \
+/* A simple setting: its member of soft_settings, its name, and the action after a change. */
+#define SETTING(field, name, type, low, high, after)                                                         \
   static void get_##name(void *self, const gd_variant *const *arguments, gd_variant *result) {               \
     (void)arguments;                                                                                         \
-    gd_assign(result, gd_##type(((soft_character *)self)->settings.name));                                   \
+    gd_assign(result, gd_##type(((soft_character *)self)->settings.field));                                  \
   }                                                                                                          \
   static void set_##name(void *self, const gd_variant *const *arguments, gd_variant *result) {               \
     soft_character *one = self;                                                                              \
     (void)result;                                                                                            \
-    if (one->settings.name == gd_as_##type(arguments[0])) return;                                            \
+    if (one->settings.field == gd_as_##type(arguments[0])) return;                                           \
     if (!soft_character_fits(one, #name, (double)gd_as_##type(arguments[0]), low, high)) return;             \
-    one->settings.name = gd_as_##type(arguments[0]);                                                         \
+    one->settings.field = gd_as_##type(arguments[0]);                                                        \
     after;                                                                                                   \
   }
 
@@ -93,32 +93,34 @@ static void set_surface_materials(void *self, const gd_variant *const *arguments
   character_mesh_apply_materials(one->mesh, one);
 }
 
-SETTING(scheme, int, SBF_SCHEME_AUTOMATIC, SBF_SCHEME_BLOCK_DESCENT, soft_character_make(one))
-SETTING(substeps, int, 0, 1024, soft_character_make(one))
-SETTING(level, int, 0, 64, soft_character_make(one))
-SETTING(detail, int, SOFT_DETAIL_AUTOMATIC, SOFT_DETAIL_FULL, soft_character_make(one))
-SETTING(free_bodies, bool, 0, 1, soft_character_make(one))
-SETTING(hold_pose, bool, 0, 1, soft_character_make(one))
-SETTING(use_threads, bool, 0, 1, soft_character_make(one))
-SETTING(forward_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
-SETTING(sideways_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
-SETTING(turn_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
-SETTING(vertical_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
-SETTING(max_turn_speed, float, 0, SOFT_MAX, (void)one)
-SETTING(gravity_scale, float, -SOFT_MAX, SOFT_MAX, soft_character_make(one))
-SETTING(paused, bool, 0, 1, soft_character_pause(one))
-SETTING(preview, bool, 0, 1, GD_DO(&one->node, "update_gizmos"))
-SETTING(mirror_skeleton, bool, 0, 1, soft_character_make(one))
-SETTING(ground, int, 0, 1, soft_character_make(one))
-SETTING(teleport_distance, float, 0, SOFT_MAX, (void)one)
-SETTING(collision_layer, int, INT32_MIN, UINT32_MAX, soft_character_apply_part_settings(one))
-SETTING(input_ray_pickable, bool, 0, 1, soft_character_apply_part_settings(one))
-SETTING(collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
-SETTING(push_bodies, bool, 0, 1, (void)one)
-SETTING(push_limit, float, 0, SOFT_MAX, (void)one)
-SETTING(collide_with_others, bool, 0, 1, soft_character_make(one))
-SETTING(cast_shadow, int, 0, 3, character_mesh_apply_settings(one->mesh, one))
-SETTING(layers, int, INT32_MIN, UINT32_MAX, character_mesh_apply_settings(one->mesh, one))
+SETTING(
+    simulation.scheme, scheme, int, SBF_SCHEME_AUTOMATIC, SBF_SCHEME_BLOCK_DESCENT, soft_character_make(one))
+SETTING(simulation.substeps, substeps, int, 0, 1024, soft_character_make(one))
+SETTING(simulation.level, level, int, 0, 64, soft_character_make(one))
+SETTING(simulation.detail, detail, int, SOFT_DETAIL_AUTOMATIC, SOFT_DETAIL_FULL, soft_character_make(one))
+SETTING(simulation.free_bodies, free_bodies, bool, 0, 1, soft_character_make(one))
+SETTING(simulation.hold_pose, hold_pose, bool, 0, 1, soft_character_make(one))
+SETTING(simulation.use_threads, use_threads, bool, 0, 1, soft_character_make(one))
+SETTING(drive.forward_speed, forward_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(drive.sideways_speed, sideways_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(drive.turn_speed, turn_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(drive.vertical_speed, vertical_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(drive.max_turn_speed, max_turn_speed, float, 0, SOFT_MAX, (void)one)
+SETTING(simulation.gravity_scale, gravity_scale, float, -SOFT_MAX, SOFT_MAX, soft_character_make(one))
+SETTING(paused, paused, bool, 0, 1, soft_character_pause(one))
+SETTING(preview, preview, bool, 0, 1, GD_DO(&one->node, "update_gizmos"))
+SETTING(display.mirror_skeleton, mirror_skeleton, bool, 0, 1, soft_character_make(one))
+SETTING(collision.ground, ground, int, 0, 1, soft_character_make(one))
+SETTING(teleport_distance, teleport_distance, float, 0, SOFT_MAX, (void)one)
+SETTING(collision.collision_layer, collision_layer, int, INT32_MIN, UINT32_MAX,
+    soft_character_apply_part_settings(one))
+SETTING(collision.input_ray_pickable, input_ray_pickable, bool, 0, 1, soft_character_apply_part_settings(one))
+SETTING(collision.collision_mask, collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
+SETTING(collision.push_bodies, push_bodies, bool, 0, 1, (void)one)
+SETTING(collision.push_limit, push_limit, float, 0, SOFT_MAX, (void)one)
+SETTING(collision.collide_with_others, collide_with_others, bool, 0, 1, soft_character_make(one))
+SETTING(display.cast_shadow, cast_shadow, int, 0, 3, character_mesh_apply_settings(one->mesh, one))
+SETTING(display.layers, layers, int, INT32_MIN, UINT32_MAX, character_mesh_apply_settings(one->mesh, one))
 #undef SETTING
 
 static void get_velocity(void *self, const gd_variant *const *arguments, gd_variant *result) {

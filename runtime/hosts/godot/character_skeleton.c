@@ -29,7 +29,7 @@ static void begin(soft_character *one) {
 void character_skeleton_make(soft_character *one) {
   const sbf_bone_list *list = &one->model->asset->bones;
   sbr_transform *rest = list->count ? malloc(list->count * sizeof *rest) : NULL;
-  if (!one->settings.mirror_skeleton || !rest) {
+  if (!one->settings.display.mirror_skeleton || !rest) {
     free(rest);
     character_skeleton_free(one);
     return;

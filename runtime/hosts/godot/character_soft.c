@@ -1,4 +1,4 @@
-/* Methods of SoftCharacter3D for soft bodies: impulses, holds, forces and measurements (sbrun/soft_body.h).
+/* Methods of SoftCharacter3D for soft bodies: impulses, grabs, forces and measurements (sbrun/soft_body.h).
  */
 #include <stdlib.h>
 
@@ -83,16 +83,16 @@ CALL(soft_character_get_nearest_vertex) {
   gd_assign(result, gd_int(vertex == SBR_WHOLE_BODY ? -1 : (int64_t)vertex));
 }
 
-CALL(soft_character_hold_vertex) {
+CALL(soft_character_grab_vertex) {
   soft_character *one = self;
   sbf_diagnostic error;
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_vertex_grab grab = sbr_default_vertex_grab();
   UNUSED;
-  hold.target = position_of(arguments[2]);
+  grab.target = position_of(arguments[2]);
   if (one->world)
     report(one,
-        sbr_character_hold_vertex(
-            one->world, one->id, number_of(arguments[0]), number_of(arguments[1]), &hold, &error),
+        sbr_character_grab_vertex(
+            one->world, one->id, number_of(arguments[0]), number_of(arguments[1]), &grab, &error),
         &error);
 }
 
@@ -103,12 +103,12 @@ CALL(soft_character_release_vertex) {
   gd_assign(result, gd_bool(released));
 }
 
-CALL(soft_character_get_hold_force) {
+CALL(soft_character_get_grab_force) {
   soft_character *one = self;
   sbf_vec3 force = {0, 0, 0};
   if (one->world)
     force =
-        sbr_character_get_hold_force(one->world, one->id, number_of(arguments[0]), number_of(arguments[1]));
+        sbr_character_get_grab_force(one->world, one->id, number_of(arguments[0]), number_of(arguments[1]));
   gd_assign(result, gd_vector3(force));
 }
 

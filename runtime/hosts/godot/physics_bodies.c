@@ -254,7 +254,7 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
       .seen = bodies->frame};
   if (is_movable(server, unused)) shared_world_except(one->shared, handle);
   unused->shape = physics_shape_of(server, handle, index, object, &unused->inner);
-  if (one->settings.push_bodies) unused->mass = body_mass_of(server, handle);
+  if (one->settings.collision.push_bodies) unused->mass = body_mass_of(server, handle);
   if (unused->shape) make_collider(bodies, one->world, server, unused);
 }
 
@@ -323,7 +323,7 @@ static void query_around(soft_character *one, bool all) {
     sbf_vec3 size = {2 * wide, 2 * tall + wide, 2 * wide};
     at.origin.y += (one->bounds.low.y + one->bounds.high.y) / 2 * one->scale;
     GD_DO(&bodies->query, "set_transform", gd_transform_value(at));
-    GD_DO(&bodies->query, "set_collision_mask", gd_int(one->settings.collision_mask));
+    GD_DO(&bodies->query, "set_collision_mask", gd_int(one->settings.collision.collision_mask));
     if (bodies->frame % FORGET == 0) {
       gd_assign(&bodies->passed, gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY));
       gd_assign(&bodies->still, gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY));
@@ -388,10 +388,10 @@ void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_se
     if (!at->id.value) continue;
     sbr_collider_impulse push = sbr_collider_take_impulse(world, at->id);
     sbf_vec3 j = push.impulse, m = push.moment;
-    if (!settings->push_bodies || (length(j) == 0 && length(m) == 0)) continue;
+    if (!settings->collision.push_bodies || (length(j) == 0 && length(m) == 0)) continue;
     if (!gd_as_object(&server)) gd_assign(&server, gd_singleton("PhysicsServer3D"));
     if (!gd.object_get_instance_from_id(at->object) || !body_is_rigid(&server, &at->handle)) continue;
-    float k = fraction_of(&server, at, j, (float)settings->push_limit);
+    float k = fraction_of(&server, at, j, (float)settings->collision.push_limit);
     GD_DO(&server, "body_apply_impulse", gd_copy(&at->handle),
         gd_vector3((sbf_vec3){k * j.x, k * j.y, k * j.z}), gd_vector3(at->arm));
     GD_DO(&server, "body_apply_torque_impulse", gd_copy(&at->handle),

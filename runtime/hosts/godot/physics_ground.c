@@ -51,7 +51,7 @@ static bool finds_floor(const soft_character *one, const gd_variant *space, doub
   gd_variant passed = gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY);
   bool found = false;
   from.y += (float)above, to.y -= (float)DEEP;
-  GD_DO(query, "set_collision_mask", gd_int(one->settings.collision_mask));
+  GD_DO(query, "set_collision_mask", gd_int(one->settings.collision.collision_mask));
   GD_DO(query, "set_from", gd_vector3(from));
   GD_DO(query, "set_to", gd_vector3(to));
   for (int i = 0; i < PASSED && !found; i++) {

@@ -69,8 +69,8 @@ static void except_ancestors(physics_parts *parts, const gd_variant *node) {
 physics_parts *physics_parts_make(const soft_character *one) {
   const sbf_asset *asset = one->model->asset;
   uint32_t count = 0;
-  part_shape *shapes = one->settings.collision_layer
-                           ? part_shapes_make(asset, one->scale, one->settings.free_bodies, &count)
+  part_shape *shapes = one->settings.collision.collision_layer
+                           ? part_shapes_make(asset, one->scale, one->settings.simulation.free_bodies, &count)
                            : NULL;
   physics_parts *made = shapes ? calloc(1, sizeof *made) : NULL;
   if (!made) return free(shapes), NULL;
@@ -143,10 +143,10 @@ static void make_area(physics_parts *parts, const soft_character *one) {
 void physics_parts_apply_settings(physics_parts *parts, const soft_character *one) {
   if (!parts) return;
   GD_DO(&parts->server, "body_set_collision_layer", gd_copy(&parts->body),
-      gd_int(one->settings.collision_layer & UINT32_MAX));
+      gd_int(one->settings.collision.collision_layer & UINT32_MAX));
   bool picked = gd_as_object(&parts->area) != NULL;
-  if (one->settings.input_ray_pickable && !picked && parts->placed) make_area(parts, one);
-  if (one->settings.input_ray_pickable || !picked) return;
+  if (one->settings.collision.input_ray_pickable && !picked && parts->placed) make_area(parts, one);
+  if (one->settings.collision.input_ray_pickable || !picked) return;
   GD_DO(&parts->area, "queue_free");
   gd_assign(&parts->area, gd_nil());
 }

@@ -35,7 +35,7 @@ void pose_driver_free(soft_character *one);
 bool pose_driver_is_used(const soft_character *one);
 /* Before a step of the world. */
 void pose_driver_prepare(soft_character *one, float frame_s);
-/* The character is made anew. */
+/* The character is created again. */
 void pose_driver_clear(soft_character *one);
 
 extern const gd_method soft_character_pose_methods[];

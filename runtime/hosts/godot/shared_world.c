@@ -96,7 +96,7 @@ static shared_world *find(const sbr_world_definition *definition, uint64_t space
 
 bool shared_world_join(soft_character *one, const sbr_world_definition *definition) {
   shared_world *shared =
-      find(definition, one->settings.collide_with_others && !one->is_in_editor ? space_of(one) : 0);
+      find(definition, one->settings.collision.collide_with_others && !one->is_in_editor ? space_of(one) : 0);
   if (!shared) return false;
   if (one->model->options.detail_levels && !shared->selects)
     shared->selects = level_of_detail_select(shared->world, 0);
@@ -209,7 +209,7 @@ void shared_world_step(soft_character *one) {
     clip_player_prepare(shared->members[i], frame_s);
     pose_driver_prepare(shared->members[i], frame_s);
   }
-  physics_bodies_move(shared->bodies, shared->world, frame_s, one->settings.push_bodies);
+  physics_bodies_move(shared->bodies, shared->world, frame_s, one->settings.collision.push_bodies);
   sbr_world_step(shared->world, (double)frame_s);
   physics_bodies_push(shared->bodies, shared->world, &one->settings);
   for (uint32_t i = 0; i < shared->count; i++) clip_player_advance(shared->members[i]);

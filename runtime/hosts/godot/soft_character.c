@@ -60,16 +60,10 @@ static void begin(void *self, GDExtensionObjectPtr object) {
   one->resources.surface_materials = gd_empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
   one->skeleton = gd_nil();
   one->is_in_editor = gd_take_bool(GD_CALL(&engine, "is_editor_hint"));
-  one->settings = (soft_settings){.gravity_scale = 1,
-      .mirror_skeleton = true,
-      .use_threads = true,
-      .collision_layer = 1,
-      .collision_mask = 1,
-      .push_bodies = true,
-      .push_limit = 5,
-      .max_turn_speed = 3,
-      .cast_shadow = 1,
-      .layers = 1};
+  one->settings = (soft_settings){.simulation = {.use_threads = true, .gravity_scale = 1},
+      .drive = {.max_turn_speed = 3},
+      .collision = {.collision_layer = 1, .collision_mask = 1, .push_bodies = true, .push_limit = 5},
+      .display = {.mirror_skeleton = true, .cast_shadow = 1, .layers = 1}};
   gd_free(&engine);
 }
 

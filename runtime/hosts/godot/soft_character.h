@@ -28,23 +28,40 @@ typedef enum soft_detail_state {
   SOFT_DETAIL_HIDDEN
 } soft_detail_state;
 
-/* Settings of the inspector. */
-typedef struct soft_settings {
+/* Settings of the inspector; names as in words.c. */
+typedef struct soft_simulation_settings {
   int64_t scheme, substeps, level; /* as in sbr_model_options */
   int64_t detail;                  /* a soft_detail */
   bool free_bodies, hold_pose, use_threads;
+  double gravity_scale;
+} soft_simulation_settings;
+
+typedef struct soft_drive_settings {
   double forward_speed, sideways_speed, turn_speed, vertical_speed; /* m/s, m/s, rad/s, m/s */
   double max_turn_speed; /* rad/s of move_and_slide; 0: it keeps its heading */
-  double gravity_scale;
-  bool paused, preview, mirror_skeleton;
+} soft_drive_settings;
+
+typedef struct soft_collision_settings {
   int64_t ground;                          /* a soft_ground */
   int64_t collision_layer, collision_mask; /* physics layers it is on, and that it collides with */
   bool input_ray_pickable;
-  double teleport_distance; /* m: a node that is moved farther in a frame is placed there; 0: half its size */
   bool push_bodies;
-  bool collide_with_others;    /* contacts with other nodes of the physics space */
-  double push_limit;           /* m/s: maximum velocity change of a body by a frame's impulse; 0: no bound */
+  double push_limit;        /* m/s: maximum velocity change of a body by a frame's impulse; 0: no bound */
+  bool collide_with_others; /* contacts with other nodes of the physics space */
+} soft_collision_settings;
+
+typedef struct soft_display_settings {
+  bool mirror_skeleton;
   int64_t cast_shadow, layers; /* as in Godot's GeometryInstance3D */
+} soft_display_settings;
+
+typedef struct soft_settings {
+  soft_simulation_settings simulation;
+  soft_drive_settings drive;
+  soft_collision_settings collision;
+  soft_display_settings display;
+  bool paused, preview;
+  double teleport_distance; /* m: a node that is moved farther in a frame is placed there; 0: half its size */
 } soft_settings;
 
 typedef struct character_mesh character_mesh;
@@ -95,7 +112,7 @@ typedef struct soft_preview {
   gd_transform warned_at; /* transform at the last warnings of the editor */
 } soft_preview;
 
-/* A point that a script holds. */
+/* A vertex that a script has grabbed. */
 typedef struct soft_grab {
   bool is_active;
   surface_vertex vertex; /* its position: from the grabbed point */
@@ -237,7 +254,7 @@ extern const gd_method soft_character_movement_methods[];
 gd_function soft_character_get_soft_mass, soft_character_get_soft_velocity,
     soft_character_get_soft_angular_velocity, soft_character_set_soft_velocity,
     soft_character_apply_soft_impulse, soft_character_apply_soft_force, soft_character_get_nearest_vertex,
-    soft_character_hold_vertex, soft_character_release_vertex, soft_character_get_hold_force,
+    soft_character_grab_vertex, soft_character_release_vertex, soft_character_get_grab_force,
     soft_character_get_pin_reactions, soft_character_get_stress;
 
 /* ---- character_mesh.c ---- */

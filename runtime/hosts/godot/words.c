@@ -115,20 +115,19 @@ static const gd_help character_words[] = {
     {"apply_impulse",
         "Applies an impulse in N s at the surface nearest to a position in world space, as a hit has it."},
     {"apply_force",
-        "Applies a force in N there for one physics frame: call it in each. At most 8 forces and holds act."},
-    {"grab", "Takes hold of the surface nearest to a point in world space; whether it could. [method drag] "
+        "Applies a force in N there for one physics frame: call it in each. At most 8 forces and grabs act."},
+    {"grab", "Grabs the surface nearest to a point in world space; whether it could. [method drag] "
              "moves it, "
              "[method release] lets go."},
-    {"drag",
-        "Pulls what [method grab] holds to a point in world space, with at most 20 times the body's weight."},
-    {"release", "Lets go of what [method grab] holds."},
-    {"is_grabbed", "Whether [method grab] holds it."},
+    {"drag", "Pulls the grabbed vertex to a point in world space, with at most 20 times the body's weight."},
+    {"release", "Releases the grabbed vertex."},
+    {"is_grabbed", "Whether a vertex is grabbed."},
     {"get_nearest_vertex",
         "The vertex of a soft body's surface nearest to a position in world space; -1: it has none."},
-    {"hold_vertex", "Pulls a vertex to a position in world space until [method release_vertex]. Call it "
+    {"grab_vertex", "Pulls a vertex to a position in world space until [method release_vertex]. Call it "
                     "again to move the position."},
     {"release_vertex", "Releases a vertex; false where it was not held."},
-    {"get_hold_force", "Force in N on a held vertex."},
+    {"get_grab_force", "Force in N on a held vertex."},
     {"get_pin_reactions",
         "Force in N and torque in N m that each pin set exerts on a soft body, one after the other."},
     {"get_stress", "Cauchy stress in Pa of each tetrahedron: xx, yy, zz, then xy, yz, zx. Empty where a soft "

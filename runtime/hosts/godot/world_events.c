@@ -1,5 +1,5 @@
 /* Signals of a step. Their handlers may free any node or step the world, which empties the arrays of events:
- * each event is fetched anew, and nodes are looked up. */
+ * each event is fetched again, and nodes are looked up. */
 #include "clip_player.h"
 #include "sbrun/events.h"
 #include "sbrun/rigid.h"

@@ -4,11 +4,11 @@
  * Units are SI: metres, seconds, kilograms, newtons, radians; right-handed, +Y up, a character faces +Z. Vectors are
  * [x, y, z], rotations quaternions [x, y, z, w]. The same calls give the same bits on every machine.
  *
- * Views (Float32Array, Uint32Array) lie in the library's own memory, and hold until something else is asked or made: read
- * them at once, or copy them with slice(). What was made is freed by free(): a world with its characters and colliders, a model
- * after its characters, an asset after its models. What was freed throws a TypeError when it is used; to free it again does nothing.
+* Views (Float32Array, Uint32Array) point into the library's own memory and are valid until the next call: read
+* them at once, or copy them with slice(). free() frees an object: a world with its characters and colliders, a model
+* after its characters, an asset after its models. Using a freed object throws a TypeError; freeing it again does nothing.
  *
- * A TypeError is thrown for arguments that are wrong in themselves, an SbfmtError for what the library refuses.
+ * Invalid arguments throw a TypeError; calls that the library refuses throw an SbfmtError.
  */
 
 export type Vector = readonly [number, number, number] | ArrayLike<number>;
@@ -17,11 +17,11 @@ export type Quaternion = readonly [number, number, number, number];
 export class SbfmtError extends Error {
   /** As in spec/codes.md. */
   readonly code: string;
-  /** Where in the file, if it is at fault. */
+  /** Location of the error in the file, if the file caused it. */
   readonly path: string;
 }
 
-/** Makes the library ready. `source`: sbfmt.wasm as bytes, a module, or where it is; without, beside sbfmt.js. */
+/** Makes the library ready. `source`: sbfmt.wasm as bytes, a module, or its URL; default: beside sbfmt.js. */
 export function load(source?: BufferSource | WebAssembly.Module | URL | string): Promise<Sbfmt>;
 
 export type Ground =
@@ -35,10 +35,10 @@ export type Ground =
   | { kind: 'heights'; heights: ArrayLike<number>; columns: number; rows: number; cell: number; x?: number; z?: number };
 
 export interface Sbfmt {
-  /** Loads and checks an .sbfz file, compressed or stored, or a .glb with soft bodies; throws an SbfmtError that says what is wrong and where. */
+  /** Loads and checks an .sbfz file, compressed or stored, or a .glb with soft bodies; throws an SbfmtError with the error and its location. */
   asset(bytes: ArrayBuffer | ArrayBufferView): Asset;
   world(options?: WorldOptions): World;
-  /** Heights and unit normals of a ground at places x, z, x, z, ...: copies. */
+  /** Heights and unit normals of a ground at positions x, z, x, z, ...: copies. */
   groundAt(ground: Ground, places: ArrayLike<number>): { heights: Float32Array; normals: Float32Array };
 }
 
@@ -55,10 +55,10 @@ export interface Bone extends Named {
   readonly length: number;
 }
 export interface Body extends Named {
-  /** The bone it moves with; -1: none. */
+  /** The bone that it follows; -1: none. */
   readonly bone: number;
 }
-/** Metallic-roughness, colours linear. Textures are places in Asset.textures; -1: none. */
+/** Metallic-roughness, colours linear. Textures are indices into Asset.textures; -1: none. */
 export interface Material extends Named {
   readonly baseColor: number[];
   readonly metallic: number;
@@ -73,9 +73,9 @@ export interface Material extends Named {
 }
 export interface Texture extends Named {
   readonly mediaType: string;
-  /** Relative to the file, where the bytes are not embedded. */
+  /** Path relative to the file, if the bytes are not embedded. */
   readonly path: string;
-  /** A copy of the image file; empty where it is not embedded. */
+  /** A copy of the image file; empty if it is not embedded. */
   readonly bytes: Uint8Array;
 }
 
@@ -90,47 +90,47 @@ export interface Asset {
   readonly legs: readonly Named[];
   readonly materials: readonly Material[];
   readonly textures: readonly Texture[];
-  /** The most simulation levels of a body, and render levels of a mesh, the full one counted. */
+  /** Maximum number of simulation levels of a body, and of render levels of a mesh, including the full one. */
   readonly levels: number;
   readonly renderLevels: number;
-  /** The greatest error that bodies state for that level, m; 0: not measured. */
+  /** Maximum error that bodies state for that level, m; 0: not measured. */
   levelError(level?: number): number;
   model(options?: ModelOptions): Model;
   free(): void;
 }
 
 export interface ModelOptions {
-  /** Of each body, 0 the finest; where there are fewer, the coarsest. */
+  /** Level of each body, 0: the finest; the coarsest if a body has fewer. */
   level?: number;
   scheme?: 'automatic' | 'symplectic' | 'position_based' | 'relaxation' | 'explicit_euler' | 'heun' | 'block_descent';
-  /** Of a control tick; 0: as many as the scheme needs. */
+  /** Substeps per control tick; 0: as many as the scheme needs. */
   substeps?: number;
   /** Drops every pin. */
   free?: boolean;
-  /** What sag-free bodies bear, if it is not the asset's. */
+  /** Gravity that sag-free bodies balance, m/s^2; default: the asset's. */
   gravity?: Vector;
   /** One number at a time instead of four: the same bits, slower. */
   scalar?: boolean;
-  /** Coarser levels than `level` as well, jiggle and bones alone, between which characters change. */
+  /** Also makes levels coarser than `level`, jiggle, and bones only, between which characters change. */
   detailLevels?: boolean;
 }
-/** What a character may be: a level of the file's bodies, jiggle, bones alone, or but a place. */
+/** A detail level of a character: a level of the file's bodies, jiggle, bones only, or a position only. */
 export interface DetailLevel {
   readonly kind: 'soft' | 'jiggle' | 'bones' | 'away';
   /** Of soft ones. */
   readonly level: number;
-  /** The greatest that its levels state, m. */
+  /** Maximum error stated by its levels, m. */
   readonly error: number;
-  /** What a tick costs, visits of elements. */
+  /** Cost of a tick in element visits. */
   readonly visits: number;
 }
-/** What many characters of one asset share. */
+/** Data shared by the characters of one asset. */
 export interface Model {
   readonly asset: Asset;
   readonly level: number;
   readonly substeps: number;
   readonly instructions: string;
-  /** Finest first; one without a detail levels. */
+  /** Finest first; a single one without `detailLevels`. */
   readonly detailLevels: readonly DetailLevel[];
   free(): void;
 }
@@ -139,16 +139,16 @@ export interface WorldOptions {
   ground?: Ground;
   /** Instead of each asset's own, m/s^2. */
   gravity?: Vector;
-  /** Room for so many; 0: 16 and 64. */
+  /** Maximum numbers; 0: 16 and 64. */
   characters?: number;
   colliders?: number;
-  /** Bodies that rest for so long are no longer stepped, s; 0: all always are. */
+  /** Time at rest before a body falls asleep, s; 0: never. */
   sleepAfter?: number;
-  /** Bodies meet each other, in so many places at once (true: 4096). */
+  /** Enables contacts between bodies, up to this number at once (true: 4096). */
   touches?: boolean | number;
 }
 
-/** Numbers that a kind does not have are 0; bodies and colliders that are not there are -1 and 0. */
+/** Numbers that a kind does not have are 0; missing bodies are -1, missing colliders 0. */
 export interface Event {
   readonly kind: 'footDown' | 'footUp' | 'landed' | 'torn' | 'unsplit' | 'asleep' | 'awake' | 'contactBegin' | 'contactEnd'
     | 'contactHit' | 'detailChanged' | 'memoryRefused';
@@ -158,7 +158,7 @@ export interface Event {
   readonly rigidBody: number;
   readonly collider: number;
   readonly tick: number;
-  /** N s, of contact. */
+  /** Impulse of the contact, N s. */
   readonly impulse: number;
   readonly position: number[];
   readonly normal: number[];
@@ -171,7 +171,7 @@ export interface Event {
   readonly toDetailLevel: number;
 }
 
-/** What a ray meets: of a collider its id, else the character's with its body (-1: none). */
+/** The hit of a ray: the id of a collider, or of a character with its body (-1: none). */
 export interface Hit {
   readonly collider: number;
   readonly character: number;
@@ -185,27 +185,27 @@ export interface Hit {
 export interface World {
   add(model: Model, options?: CharacterOptions): Character;
   collider(options?: ColliderOptions): Collider;
-  /** Any frame time; control runs at its own tick, and reads see the moment in between. */
+  /** Advances by any frame time, s. Ticks are fixed; reads interpolate between them. */
   step(seconds?: number): void;
   readonly ticks: number;
   /** Soft bodies that were stepped in the last tick. */
   readonly awake: number;
-  /** Of all mutable state: sixteen hexadecimal digits, the same on every machine. */
+  /** Hash of all mutable state: sixteen hexadecimal digits, the same on every machine. */
   stateHash(): string;
   /** Events of the last step, oldest first; at most 1024. */
   events(): Event[];
   ray(from: Vector, direction: Vector, length?: number): Hit | null;
-  /** From now on the world chooses the detail levels of characters that are put on none, by the views. */
+  /** From now on the world selects detail levels by the views, except for characters with a level set by setDetailLevel. */
   detail(options?: DetailOptions): void;
-  /** From where characters are looked at, at most four; without any nobody is seen. */
+  /** Sets the cameras, at most four; without any, no character is visible. */
   views(views: readonly View[]): void;
-  /** What all characters were taken to cost in the last tick. */
+  /** Predicted cost of all characters in the last tick, in element visits. */
   readonly visits: number;
-  /** Begins a recording of what moves the world. Make characters before it. */
+  /** Begins a recording of the calls that move the world. Create characters before it. */
   record(): void;
-  /** Ends it. Played in a world made alike, here or by the program, it gives the same states to the bit. */
+  /** Ends it. Replayed in a world with the same definition, here or by the program, it gives the same states to the bit. */
   recorded(): Uint8Array;
-  /** Begins to play one; throws where the bytes are none. */
+  /** Begins a replay; throws if the bytes are not a recording. */
   replay(recording: Uint8Array): Replay;
   snapshot(): Uint8Array;
   restore(snapshot: Uint8Array): void;
@@ -213,34 +213,34 @@ export interface World {
 }
 
 export interface DetailOptions {
-  /** Pixels that a character may be off on the screen; 0.5. */
+  /** Maximum error on the screen in pixels; default 0.5. */
   errorPx?: number;
-  /** Microseconds of processor time a tick for all together; 0: none. */
+  /** Processor time per tick for all characters, microseconds; 0 (default): no budget. */
   budget?: number;
-  /** What a visit takes on this machine; 6. */
+  /** Time of an element visit on this machine; default 6. */
   nsPerVisit?: number;
-  /** A coarser detail level is taken where its error is below this share of errorPx; 0.7. */
-  settle?: number;
-  /** And no sooner after the last change, s; 0.5. */
+  /** A coarser detail level is selected if its error is below this fraction of errorPx; default 0.7. */
+  coarsenFraction?: number;
+  /** Minimum time between changes, s; default 0.5. */
   stay?: number;
-  /** Unseen for so long it goes away, s; negative: never; 1. */
-  awayAfter?: number;
+  /** Time out of view before the offscreen level, s; negative: never; default 1. */
+  offscreenAfter?: number;
 }
 export interface View {
   eye: Vector;
   forward: Vector;
-  /** Radians from the lower to the upper edge, above 0, at most 3. */
+  /** Vertical field of view, radians, above 0 and at most 3. */
   height: number;
   /** Width over height. */
   ratio: number;
-  /** Pixels from the lower to the upper edge. */
+  /** Height in pixels. */
   lines: number;
 }
 
 export interface Replay {
-  /** Plays up to and with the next step, and compares the hash behind it; false where nothing was left. */
+  /** Plays calls through the next step and checks the hash after it; false at the end of the recording. */
   frame(): boolean;
-  /** Steps in it and played, hashes compared, and whether one was another, first at which tick. */
+  /** Steps in it, steps played, hashes compared, whether one differs, and the first tick with a difference. */
   readonly state: { count: number; frames: number; checks: number; differs: boolean; differsAt: number | null };
   free(): void;
 }
@@ -250,15 +250,15 @@ export interface ColliderOptions {
   radius?: number;
   halfSizes?: Vector;
   position?: Vector;
-  /** Negative: that of what touches it. */
+  /** Negative: the value of the other body. */
   friction?: number;
   restitution?: number;
 }
 export interface Collider {
   readonly id: number;
-  /** Where it shall be at the end of the next tick: what it touches on the way feels that velocity. */
+  /** Moves it during the next tick; its velocity acts on bodies in contact. */
   move(position: Vector, rotation?: Quaternion): void;
-  /** Puts it there at once, without velocity. */
+  /** Teleports it, without velocity. */
   place(position: Vector, rotation?: Quaternion): void;
   free(): void;
 }
@@ -269,18 +269,18 @@ export interface CharacterOptions {
   heading?: number;
   scale?: number;
   /** Bones stay in their rest pose. */
-  hold?: boolean;
+  holdPose?: boolean;
 }
 
-/** Triangles over vertices with one normal and one place in the texture each. */
+/** Triangles over vertices; each has one normal and one texture coordinate. */
 export interface Skin {
   /** Three numbers a vertex, relative to Character.origin. */
   readonly positions: Float32Array;
   readonly normals: Float32Array;
-  /** Two a vertex, from the top left; null: none. */
+  /** Two numbers a vertex, from the top left; null: none. */
   readonly uvs: Float32Array | null;
   readonly indices: Uint32Array;
-  /** Runs of indices that share a material, a place in Asset.materials; -1: none. */
+  /** Ranges of indices with one material, an index into Asset.materials; -1: none. */
   readonly groups: readonly { start: number; count: number; material: number }[];
 }
 
@@ -299,10 +299,10 @@ export interface Character {
   readonly id: number;
   readonly model: Model;
   readonly world: World;
-  /** What it is to do until told otherwise: forward in m/s, turn (left) in rad/s, sideways (left) in m/s, up in m/s
+  /** Sets the wanted velocity: forward in m/s, turn (left) in rad/s, sideways (left) in m/s, up in m/s
    *  for what swims or flies. */
   drive(forward: number, turn?: number, sideways?: number, up?: number): void;
-  /** Moves it by metres along the world's axes and turns it by radians in the next tick: its feet step after it. */
+  /** Moves it along the world's axes (m) and rotates it (rad) in the next tick; its feet follow with steps. */
   displace(by: Vector, turn?: number): void;
   teleport(position: Vector, heading?: number): void;
   reset(): void;
@@ -310,30 +310,30 @@ export interface Character {
   pause(paused?: boolean): void;
   /** Plays a clip, by name or number, in a layer of four; null fades it out. */
   play(clip: string | number | null, how?: { layer?: number; weight?: number; fade?: number; speed?: number; start?: number }): void;
-  /** Gives an IK chain a target, in world space; null takes it away. */
+  /** Sets the target of an IK chain, in world space; null removes it. */
   reach(ikChain: number, position: Vector | null, weight?: number): void;
-  /** Of one rigid body, or of all. */
+  /** Sets the mode of one rigid body, or of all. */
   rigidMode(mode: 'kinematic' | 'passive' | 'driven', rigidBody?: number): void;
   /** Knocks it over; it gets up by itself. */
   fall(): void;
   readonly posture: 'up' | 'falling' | 'rising';
-  /** An impulse in N s at a place of the world, on a rigid body that is simulated. */
+  /** Applies an impulse in N s at a world position to a simulated rigid body. */
   push(rigidBody: number, place: Vector, impulse: Vector): void;
   rigidState(rigidBody: number): RigidState;
-  /** Vertex of a soft body's surface nearest to a place of the world; -1: it has none. */
+  /** Vertex of a soft body's surface nearest to a world position; -1: no surface. */
   nearestVertex(softBody: number, position: Vector): number;
-  /** Draws a vertex to a target by a damped spring, until it is released; again to move the target. `frequency` in Hz (0: 5),
+  /** Pulls a vertex to a target by a damped spring until it is released; another call moves the target. `frequency` in Hz (0: 5),
    * `maxForce` in N (0: 20 times the body's weight). */
-  hold(softBody: number, vertex: number, target: Vector, options?: { frequency?: number; maxForce?: number }): void;
-  /** False where it was not held. */
+  grab(softBody: number, vertex: number, target: Vector, options?: { frequency?: number; maxForce?: number }): void;
+  /** Releases the vertex; false if it was not grabbed. */
   release(softBody: number, vertex: number): boolean;
-  /** An impulse in N s at a vertex, or (-1) on the whole body. */
+  /** Applies an impulse in N s at a vertex, or (-1) to the whole body. */
   applySoftImpulse(softBody: number, impulse: Vector, vertex?: number): void;
-  /** A force in N for so many seconds at a vertex, or (-1) on the whole body. */
+  /** Applies a force in N for a number of seconds at a vertex, or (-1) to the whole body. */
   applySoftForce(softBody: number, force: Vector, seconds: number, vertex?: number): void;
-  /** N on a held vertex, mean of the last tick. */
-  holdForce(softBody: number, vertex: number): number[];
-  /** What each pin set exerts on the body: N, and N m about `about` (m relative to the origin). -1: not a bone, not a rigid body. */
+  /** Force on a grabbed vertex in N, mean of the last tick. */
+  grabForce(softBody: number, vertex: number): number[];
+  /** Reaction of each pin set on the body: N, and N m about `about` (m relative to the origin). -1: no bone, no rigid body. */
   pinReactions(softBody: number): { pinSet: number; bone: number; rigidBody: number; points: number; about: number[]; force: number[]; torque: number[] }[];
   /** Cauchy stress in Pa (xx, yy, zz, xy, yz, zx), J/m^3, m^3 and points of each tetrahedron of the simulated level. */
   tetrahedra(softBody: number): { stress: number[]; energyDensity: number; restVolume: number; volumeRatio: number; corners: number[]; torn: boolean }[];
@@ -341,28 +341,28 @@ export interface Character {
   setSoftVelocity(softBody: number, velocity: Vector, angularVelocity?: Vector): void;
   /** Its free points as one rigid body: kg, m relative to the origin, m/s, rad/s. */
   softMotion(softBody: number): { mass: number; center: number[]; velocity: number[]; angularVelocity: number[] };
-  /** The detail level that it is on, or goes over to. */
+  /** The present detail level, or the one that it is changing to. */
   readonly detailLevel: number;
-  /** Puts it on a detail level; null: the world chooses. In a world whose bodies meet each other it stays on its own. */
+  /** Sets the detail level; null: selected by the world. With contacts between bodies it keeps a soft level while others are near. */
   setDetailLevel(detailLevel: number | null): void;
-  /** How far the skin still is from going over, 1 to 0. */
+  /** Remaining fraction of a change of level, 1 to 0. */
   readonly fade: number;
-  /** What is known better than by the views. */
+  /** Visibility set by the host instead of the views. */
   shown(how: 'byViews' | 'always' | 'never'): void;
-  /** Pixels that it is taken to be off now; 0: it is not seen. */
+  /** Predicted error in pixels; 0: not visible. */
   readonly errorPx: number;
-  /** What bones and vertices are relative to, in world space. */
+  /** Origin of bones and vertices, world space. */
   readonly origin: number[];
   /** Metres walked. */
   readonly distance: number;
-  /** Seven numbers a bone: place, rotation from the bone's frame to the world's. */
+  /** Seven numbers a bone: position, rotation from the bone's frame to the world's. */
   bones(): Float32Array;
   legs(): { planted: boolean; steps: number; phase: number; foot: number[]; target: number[] }[];
-  /** Of all bodies: least volume against rest, greatest strain, J, how often a shape was put back, elements torn. */
+  /** Over all bodies: minimum volume ratio, maximum strain, energy in J, number of shape resets, number of torn elements. */
   health(): { volumeRatio: number; maxStrain: number; energy: number; recoveries: number; torn: number; valid: boolean; asleep: boolean };
-  /** One render mesh, at one of its levels, as it is now. */
+  /** One render mesh at one of its levels, in the present state. */
   skin(mesh?: number, level?: number): Skin;
-  /** Springs and edges of lattices as of the last tick, ten numbers each: place, kind and strain of either end. Kinds: 0
+  /** Springs and edges of lattices as of the last tick, ten numbers each: position, kind and strain of both ends. Kinds: 0
    * structural, 1 shear, 2 flexion, 3 internal, 4 cross-body, 5 edge of a lattice. */
   lines(): Float32Array;
   free(): void;

@@ -1,5 +1,5 @@
 /* The page of `sbfmt export -o PAGE.html`: a character to look at, to walk about, to drag and to throw balls at.
- * What is pressed, shown and chosen stands in the panel of viewer.html. */
+ * Keys and pointer steer; buttons and settings are in the panel of viewer.html. */
 import { load } from './sbfmt.js';
 import { listenForFiles } from './viewer_files.js';
 import { Show } from './viewer_show.js';
@@ -59,7 +59,7 @@ class Viewer extends Show {
     element(id).disabled = levels.length + more.length < 2;
   }
 
-  /** Of what is inside only that can be shown which this character has at its level. */
+  /** Enables the switches of inner parts that this character has at its level. */
   offerInside() {
     const lines = this.character.lines(), kinds = new Set();
     for (let at = 3; at < lines.length; at += 10) kinds.add(lines[at]);

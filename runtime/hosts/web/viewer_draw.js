@@ -137,7 +137,7 @@ export const matrix = {
 const SHADOW_SIZE = 1536;
 const LIGHT_WAY = vector.unit([-0.45, -1, -0.35]);
 
-/** Draws what it is given each frame: begin, then any of mesh and lines, twice over (shadows, then the picture). */
+/** Draws meshes and lines each frame: begin, then all of them twice (shadows, then the picture). */
 export class Painter {
   constructor(canvas) {
     const gl = canvas.getContext('webgl2', { antialias: true, powerPreference: 'high-performance' });
@@ -229,7 +229,7 @@ export class Painter {
     for (const buffer of [...mesh.buffers, mesh.indices]) gl.deleteBuffer(buffer);
   }
 
-  /** A picture of what lies about `focus`, `size` metres large; `draw` is called for the shadows, then for what is seen. */
+  /** A picture of the surroundings of `focus`, `size` metres large; `draw` is called for the shadows, then for the picture. */
   picture({ eye, focus, size, halfHeight }, draw) {
     const { gl } = this, { width, height } = gl.canvas, reach = size * 9;
     const light = matrix.multiply(matrix.box(size * 1.3, 0.1, size * 8), matrix.look(vector.add(focus, vector.scale(LIGHT_WAY, -size * 4)), focus));

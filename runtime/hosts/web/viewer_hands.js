@@ -28,7 +28,7 @@ export class Hands extends Stage {
     this.character.drive(drive.forward * speed, drive.turn * 0.9, drive.sideways * speed);
   }
 
-  /** Takes hold of what lies under the pointer; false where that is nothing. */
+  /** Grabs the object under the pointer; false if there is none. */
   grab(x, y) {
     const way = this.wayThrough(x, y), hit = this.world.ray(this.eye, way, this.camera.distance * 4);
     if (!hit || !hit.character) return false;
@@ -62,12 +62,12 @@ export class Hands extends Stage {
     this.held = undefined;
   }
 
-  /** Draws what is held towards the pointer, strongly enough to lift all of it. */
+  /** Pulls the grabbed object towards the pointer, with enough force to lift it. */
   pull(seconds) {
     const { held } = this;
     if (!held?.pulled) return;
     if (held.finger) return held.finger.move(held.target);
-    if (held.vertex !== undefined) return this.character.hold(held.softBody, held.vertex, held.target);
+    if (held.vertex !== undefined) return this.character.grab(held.softBody, held.vertex, held.target);
     if (this.character.posture !== 'falling') this.character.fall();
     const state = this.character.rigidState(held.rigid);
     const place = vector.add(vector.add(this.character.origin, state.position), vector.turn(state.rotation, held.local));

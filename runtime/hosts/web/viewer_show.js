@@ -4,7 +4,7 @@ import { Hands, MOVES } from './viewer_hands.js';
 
 const SPRINGS = 0b011111, LATTICE = 0b100000;
 export const FRAME = 1 / 60;
-/** Physics may take so much of a frame, in ms or as a share of the frame before; what time it then has not covered is let go: slow motion. */
+/** Maximum time of physics in a frame, in ms or as a fraction of the previous frame; time beyond it is dropped: slow motion. */
 const PHYSICS_MS = 10, PHYSICS_SHARE = 0.35, LONGEST_FRAME = 0.25;
 const TURNS = { ArrowLeft: [-0.06, 0], ArrowRight: [0.06, 0], ArrowUp: [0, 0.05], ArrowDown: [0, -0.05] };
 
@@ -112,7 +112,7 @@ export class Show extends Hands {
     this.painter.drawMesh(this.ballMesh, [{ color: [0.80, 0.16, 0.10, 1], roughness: 0.35 }], one.place);
   }
 
-  /** The ground about what is looked at, made anew when that has gone on. */
+  /** The ground around the camera's subject, made again after the subject has moved on. */
   layGround() {
     const half = this.size * 9, cells = 120, [x, , z] = this.camera.focus, made = this.groundMesh;
     if (made && Math.hypot(made.x - x, made.z - z) < half * 0.12) return;
@@ -180,7 +180,7 @@ export class Show extends Hands {
     for (const button of pad) this.listenToPad(button);
   }
 
-  /** A button that walks while it is held, by a finger or by the keyboard. */
+  /** A button that walks while it is pressed, by touch or by keyboard. */
   listenToPad(button) {
     const { code } = button.dataset, press = () => this.keys.add(code), lift = () => this.keys.delete(code);
     button.addEventListener('pointerdown', (event) => {

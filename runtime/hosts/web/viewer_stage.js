@@ -5,7 +5,7 @@ import { Painter, vector } from './viewer_draw.js';
 export function bytesIn(selector) {
   return Uint8Array.from(atob(document.querySelector(selector)?.textContent ?? ''), (one) => one.charCodeAt(0));
 }
-/** Hills of noise are as wide whatever the character's size: for a larger one they grow no higher, or they would be spikes. */
+/** Noise hills have the same width for any character: they are not raised for larger ones, or they would be spikes. */
 const LARGEST_HILLS = 1.5;
 const LANDS = {
   flat: () => ({ kind: 'flat' }),
@@ -54,7 +54,7 @@ export class Stage {
     this.restart(); // now that the size is known
   }
 
-  /** Frees the world and what is drawn of it. */
+  /** Frees the world and its meshes. */
   clear() {
     this.world?.free();
     this.model?.free();
@@ -76,7 +76,7 @@ export class Stage {
     return Number.isInteger(level) ? this.asset.levelError(level) : this.detailLevels.find(({ kind }) => kind === level).error;
   }
 
-  /** Makes world and character anew, at the chosen level on the chosen ground. */
+  /** Creates world and character again, at the selected level on the selected ground. */
   restart(ground = LANDS[this.choices.ground](this.size), at) {
     this.clear();
     const { level } = this.choices, ofFile = Number.isInteger(level);

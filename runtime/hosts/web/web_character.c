@@ -8,14 +8,14 @@ static sbr_character_id id_of(uint32_t character) {
 }
 
 uint32_t WEB_CALL(web_character_create)(sbr_world *world, const sbr_model *model, double x, double y,
-    double z, float heading, float scale, uint32_t hold) {
+    double z, float heading, float scale, uint32_t hold_pose) {
   sbr_character_id character = {0};
   sbr_character_definition definition = sbr_default_character_definition();
   memset(web_failure(), 0, sizeof(sbf_diagnostic));
   definition.position = (sbr_double3){x, y, z};
   definition.heading = heading;
   definition.scale = scale;
-  definition.hold = hold != 0;
+  definition.hold_pose = hold_pose != 0;
   sbf_status status = sbr_character_create(world, model, &definition, &character, web_failure());
   return status == SBF_OK ? character.value : 0;
 }

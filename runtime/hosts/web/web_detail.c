@@ -38,7 +38,7 @@ float WEB_CALL(web_character_error_px)(const sbr_world *world, uint32_t characte
 uint32_t WEB_CALL(web_world_detail)(sbr_world *world, const float *from) {
   sbr_detail_definition definition = sbr_default_detail_definition();
   float *const fields[6] = {&definition.error_px, &definition.budget_us, &definition.ns_per_visit,
-      &definition.coarsen_fraction, &definition.stay_s, &definition.away_after_s};
+      &definition.coarsen_fraction, &definition.stay_s, &definition.offscreen_after_s};
   memset(web_failure(), 0, sizeof(sbf_diagnostic));
   for (int i = 0; i < 6; i++)
     if (from[i] == from[i]) *fields[i] = from[i];

@@ -1,4 +1,4 @@
-/* Impulses, holds and measurements of soft bodies. On failure they return 0, with the reason in
+/* Impulses, grabs and measurements of soft bodies. On failure they return 0, with the reason in
  * web_failure(). */
 #include <string.h>
 
@@ -17,12 +17,12 @@ uint32_t WEB_CALL(web_character_nearest_vertex)(
     const sbr_world *world, uint32_t character, uint32_t soft_body, double x, double y, double z) {
   return sbr_character_find_nearest_vertex(world, id_of(character), soft_body, (sbr_double3){x, y, z});
 }
-uint32_t WEB_CALL(web_character_hold)(sbr_world *world, uint32_t character, uint32_t soft_body,
+uint32_t WEB_CALL(web_character_grab)(sbr_world *world, uint32_t character, uint32_t soft_body,
     uint32_t vertex, double x, double y, double z, float frequency_hz, float max_force) {
-  sbr_soft_hold hold = sbr_default_soft_hold();
-  hold.target = (sbr_double3){x, y, z};
-  hold.frequency_hz = frequency_hz, hold.max_force = max_force;
-  return sbr_character_hold_vertex(world, id_of(character), soft_body, vertex, &hold, begin()) == SBF_OK;
+  sbr_vertex_grab grab = sbr_default_vertex_grab();
+  grab.target = (sbr_double3){x, y, z};
+  grab.frequency_hz = frequency_hz, grab.max_force = max_force;
+  return sbr_character_grab_vertex(world, id_of(character), soft_body, vertex, &grab, begin()) == SBF_OK;
 }
 uint32_t WEB_CALL(web_character_release)(
     sbr_world *world, uint32_t character, uint32_t soft_body, uint32_t vertex) {
@@ -51,9 +51,9 @@ void WEB_CALL(web_character_soft_motion)(
   _Static_assert(sizeof m == 40, "ten numbers");
   memcpy(to, &m, sizeof m);
 }
-void WEB_CALL(web_character_hold_force)(
+void WEB_CALL(web_character_get_grab_force)(
     const sbr_world *world, uint32_t character, uint32_t soft_body, uint32_t vertex, float *to) {
-  sbf_vec3 force = sbr_character_get_hold_force(world, id_of(character), soft_body, vertex);
+  sbf_vec3 force = sbr_character_get_grab_force(world, id_of(character), soft_body, vertex);
   memcpy(to, &force, sizeof force);
 }
 /* 13 numbers per pin set: set, bone, rigid body and number of points as integers, then position, force,

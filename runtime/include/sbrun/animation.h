@@ -1,7 +1,7 @@
 /* Animation: targets for limbs, clips, and measures of a pose.
  *
  * Rules are those of sbrun.h: setters ignore invalid handles, getters then return zeros. No call allocates.
- * Everything set here is state, held by snapshots. */
+ * Everything set here is state, stored in snapshots. */
 #ifndef SBRUN_ANIMATION_H
 #define SBRUN_ANIMATION_H
 
@@ -30,8 +30,8 @@ SBF_API sbr_ik_target sbr_default_ik_target(void);
 SBF_API void sbr_character_set_ik_target(
     sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target);
 
-/* Turns the character about the foot of one leg of the gait, from 0, which stays planted; -1: about the
- * body's centre again. */
+/* Sets the leg of the gait, from 0, about whose planted foot the character rotates; -1: about the body's
+ * centre. */
 SBF_API void sbr_character_set_pivot_leg(sbr_world *world, sbr_character_id character, int32_t leg);
 
 /* ---- Clips -------------------------------------------------------------------------------------------- */
@@ -54,20 +54,20 @@ SBF_API sbr_clip_play sbr_default_clip_play(void);
 SBF_API void sbr_character_play_clip(
     sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how);
 
-/* Carries the clips of another asset's skeleton over to this one's bones and adds them to its clips, for
- * sbr_character_play_clip: a library of motion, loaded once, moves every character. It changes `asset`, which
- * no model may have been made of yet, and which no other thread may use meanwhile; it may be a loaded one.
+/* Retargets the clips of another asset's skeleton to this asset's bones and adds them to its clips, for
+ * sbr_character_play_clip. One library of motion can thus move every character. `asset` may be a loaded one;
+ * no model may have been made from it, and no other thread may use it during the call.
  *
- * Bones stand for each other by retarget_chains of one name, bone by bone by their share of the chain; else
- * by their names, or by names that mean the same part of the same side (LeftUpLeg, thigh.L). Each turns away
- * from its rest pose as its counterpart does; thighs, shins, upper and lower arms point as their counterparts
- * do, whatever the two rest poses. The hips travel in proportion to their height. Bones without a counterpart
- * go along with their parents.
+ * Bones correspond by retarget_chains of the same name, in the order of their fractions along the chain; else
+ * by equal names, or by names for the same part of the same side (LeftUpLeg, thigh.L). Each bone rotates from
+ * its rest pose as its counterpart does. Thighs, shins, upper and lower arms point in the same direction as
+ * their counterparts, whatever the two rest poses are. The hips travel in proportion to their height. Bones
+ * without a counterpart follow their parents.
  *
- * `name` (may be NULL) says where the clips come from, in messages and for clips without a name. `report`
- * (may be NULL) is told of each clip (IMPORT_MOTION) and of bones without a counterpart
- * (IMPORT_MOTION_UNMATCHED). SBF_BAD_INPUT: `from` has no clip, or no bone that stands for one; SBF_FAILED:
- * memory ran out. The asset then has the clips that it had. */
+ * `name` (may be NULL) is the source of the clips, for messages and for clips without a name. `report` (may
+ * be NULL) receives each clip (IMPORT_MOTION) and the bones without a counterpart (IMPORT_MOTION_UNMATCHED).
+ * SBF_BAD_INPUT: `from` has no clip, or no bone with a counterpart. SBF_FAILED: memory ran out. On failure
+ * the asset keeps the clips it had. */
 SBF_API sbf_status sbr_asset_retarget_clips(sbf_asset *asset, const sbf_asset *from, const char *name,
     void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user, sbf_diagnostic *error);
 
@@ -77,7 +77,7 @@ SBF_API sbf_status sbr_asset_retarget_clips(sbf_asset *asset, const sbf_asset *f
 /* Maximum violation of a joint limit over all bones after the last tick, rad; 0: none. */
 SBF_API float sbr_character_get_limit_violation(const sbr_world *world, sbr_character_id character);
 /* Centre of mass after the last tick, relative to the origin. A bone has the mass of the soft bodies on it,
- * or of the skin that follows it. False if the bones hold neither. */
+ * or of the skin that follows it. False if the bones have neither. */
 SBF_API bool sbr_character_get_center_of_mass(
     const sbr_world *world, sbr_character_id character, sbf_vec3 *center);
 

@@ -1,11 +1,11 @@
 /* Collision: shapes and colliders of the host, contacts between characters. Queries: sbrun/query.h.
  *
  * A shape is made once and shared. A collider is a shape at a position in a world. The host moves colliders;
- * bodies in contact feel their velocity. Points of soft bodies and hulls of simulated rigid bodies stay
+ * their velocity acts on bodies in contact. Points of soft bodies and hulls of simulated rigid bodies stay
  * outside of colliders, with Coulomb friction and restitution: docs/collision.md.
  *
  * Rules are those of sbrun.h: setters ignore invalid handles, getters then return zeros; only calls named
- * create allocate. Colliders belong to the host: snapshots do not hold their positions. Lengths are world
+ * create allocate. Colliders belong to the host: snapshots do not store their positions. Lengths are world
  * metres. */
 #ifndef SBRUN_COLLISION_H
 #define SBRUN_COLLISION_H
@@ -35,7 +35,7 @@ typedef enum sbr_shape_kind {
  * threads many times a tick. Points of soft bodies and vertices of rigid hulls collide with it. */
 typedef struct sbr_host_shape {
   /* Overlap: signed distance in m from `point` to the surface (negative inside), or any number above `reach`
-   * where nothing is so near; `normal` receives the unit normal there, outwards. */
+   * if the surface is farther; `normal` receives the unit normal there, outwards. */
   float (*distance)(void *user, sbf_vec3 point, float reach, sbf_vec3 *normal);
   /* Ray: the fraction, 0 to 1, of `displacement` from `from` at which it enters, with the normal there;
    * negative if it hits nothing. NULL: fast points may pass through. */
@@ -71,22 +71,22 @@ SBF_API void sbr_shape_destroy(sbr_shape *shape);
 
 /* Definition of a collider. */
 typedef struct sbr_collider_definition {
-  uint32_t cookie;        /* set by sbr_default_collider_definition */
-  const sbr_shape *shape; /* required */
-  sbr_double3 position;   /* world, of the shape's origin */
-  sbf_quat rotation;      /* from the shape's axes to the world's; default none */
-  float friction;         /* Coulomb coefficient; negative (default): the other body's */
-  float restitution;      /* [0, 1]; negative (default): the other body's */
-  uint32_t layer;         /* layers it is on; default 1 */
-  uint32_t mask;          /* layers it collides with; default all */
-  float mass;             /* kg, > 0: of a body of the host's own, which what touches it moves (below); 0
-                             (default): nothing moves it */
-  sbf_vec3 inertia; /* kg m^2, >= 0, about its principal axes through its centre of mass; 0 (default): about
-                       that axis nothing turns it */
+  uint32_t cookie;         /* set by sbr_default_collider_definition */
+  const sbr_shape *shape;  /* required */
+  sbr_double3 position;    /* world, of the shape's origin */
+  sbf_quat rotation;       /* from the shape's axes to the world's; default none */
+  float friction;          /* Coulomb coefficient; negative (default): the other body's */
+  float restitution;       /* [0, 1]; negative (default): the other body's */
+  uint32_t layer;          /* layers it is on; default 1 */
+  uint32_t mask;           /* layers it collides with; default all */
+  float mass;              /* kg, > 0: of a body of the host that contacts move (below); 0 (default):
+                              contacts do not move it */
+  sbf_vec3 inertia;        /* kg m^2, >= 0, about its principal axes through its centre of mass; 0 (default):
+                              contacts        do not rotate it about that axis */
   sbf_quat inertia_axes;   /* from those axes to the shape's; default none */
-  sbf_vec3 centre;         /* m, of its mass, in the shape's frame; default its origin */
-  sbr_collider_id part_of; /* of one body with that collider, made before and with a mass, which is that of
-                             all its parts; 0 (default): of none */
+  sbf_vec3 centre;         /* m, centre of mass in the shape's frame; default its origin */
+  sbr_collider_id part_of; /* an earlier collider with a mass: both are parts of one body, and that mass is
+                             the mass of all its parts; 0 (default): none */
   void *user_data;         /* the host's */
 } sbr_collider_definition;
 
@@ -101,8 +101,8 @@ SBF_API bool sbr_collider_is_valid(const sbr_world *world, sbr_collider_id colli
 /* The host's pointer, as in the definition; the runtime does not use it. */
 SBF_API void sbr_collider_set_user_data(sbr_world *world, sbr_collider_id collider, void *user_data);
 SBF_API void *sbr_collider_get_user_data(const sbr_world *world, sbr_collider_id collider);
-/* Moves the collider during the next tick; bodies in contact feel its velocity. It then stands still until it
- * is moved again. */
+/* Moves the collider during the next tick; its velocity acts on bodies in contact. It then stands still until
+ * it is moved again. */
 SBF_API void sbr_collider_move(
     sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation);
 /* Puts the collider there at once, without velocity. */
@@ -116,7 +116,7 @@ typedef struct sbr_collider_motion {
   sbf_vec3 velocity;         /* m/s, of the shape's origin */
   sbf_vec3 angular_velocity; /* rad/s, world axes */
   sbf_vec3 acceleration;     /* m/s^2, constant, added by the host: gravity */
-  float since_s;             /* s simulated by the host since the last call; 0: it was placed */
+  float since_s;             /* s simulated by the host since the last call; 0: it was teleported */
 } sbr_collider_motion;
 /* Sets the motion of a collider with a mass, before each step. The runtime then predicts its motion within
  * the tick from this velocity, the acceleration and the impulses of bodies in contact, so that a light body
@@ -136,7 +136,7 @@ typedef struct sbr_collider_impulse {
 /* Returns the impulse since the last call and clears it. The host applies it to its own body before it moves
  * the body; momentum is then conserved. A collider without mass is immovable for characters. A body in
  * contact with more than twelve colliders pushes the first twelve. Output, as events are: snapshots do not
- * hold it. */
+ * store it. */
 SBF_API sbr_collider_impulse sbr_collider_take_impulse(sbr_world *world, sbr_collider_id collider);
 
 /* ---- Each other --------------------------------------------------------------------------------------- */

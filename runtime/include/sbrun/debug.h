@@ -1,5 +1,5 @@
-/* What a world costs, holds and looks like inside: times by stage of a tick, counters, and lines to draw.
- * Reading changes nothing, and the motion is the same with a clock and without. Threads: as sbrun/sbrun.h. */
+/* Debugging: times by stage of a tick, counters, drawing of the state, and checks. Reading changes nothing,
+ * and the motion is the same with a clock and without. Threads: as in sbrun/sbrun.h. */
 #ifndef SBRUN_DEBUG_H
 #define SBRUN_DEBUG_H
 
@@ -9,7 +9,8 @@
 extern "C" {
 #endif
 
-/* The host's clock: seconds since any moment, never falling. The world calls it on the thread that steps it.
+/* The host's clock: seconds from any origin, never decreasing. The world calls it on the thread that steps
+ * it.
  */
 typedef struct sbr_clock {
   double (*now_s)(void *user); /* NULL: nothing is timed */
@@ -28,7 +29,7 @@ typedef enum sbr_stage {
   SBR_STAGE_COUNT
 } sbr_stage;
 
-/* Lower case with underscores, as "broad_phase"; "" for a number that is no stage. */
+/* Lower case with underscores, such as "broad_phase"; "" for a number that is not a stage. */
 SBF_API const char *sbr_stage_get_name(sbr_stage stage);
 
 /* Part of a tick. */
@@ -37,19 +38,19 @@ typedef struct sbr_time_span {
   double duration_s; /* from there */
 } sbr_time_span;
 
-/* The last control tick, as the host's clock saw it; zeros where the world has no clock or no tick was made
- * with it. */
+/* Times of the last control tick by the host's clock; zeros without a clock, and before the first tick with
+ * one. */
 typedef struct sbr_profile {
   uint64_t tick;                         /* its number, from 1 */
   sbr_time_span whole;                   /* the tick */
   sbr_time_span stages[SBR_STAGE_COUNT]; /* its stages; all worker threads together count once */
 } sbr_profile;
 
-/* Times the ticks from now on; a clock without now_s ends that. The profile so far is cleared. */
+/* Times the ticks from now on; a clock without now_s stops that. Clears the profile. */
 SBF_API void sbr_world_set_clock(sbr_world *world, sbr_clock clock);
 SBF_API sbr_profile sbr_world_get_profile(const sbr_world *world);
 
-/* What the world holds after its last tick. */
+/* Contents of the world after its last tick. */
 typedef struct sbr_counters {
   uint32_t character_count;       /* characters */
   uint32_t collider_count;        /* colliders of the host */
@@ -68,7 +69,7 @@ typedef struct sbr_counters {
   size_t memory_bytes;     /* of characters: state and scratch */
 } sbr_counters;
 
-/* Counts anew; takes time in proportion to the points. */
+/* Counts the contents; takes time in proportion to the points. */
 SBF_API sbr_counters sbr_world_get_counters(const sbr_world *world);
 
 /* ---- Drawing ---- */
@@ -108,8 +109,8 @@ SBF_API void sbr_world_draw(const sbr_world *world, const sbr_debug_draw *draw);
 /* ---- Checking ---- */
 
 /* Checks the state between two steps: numbers are finite, rotations have unit length, indices are in range,
- * handles are alive, lists are sorted and within their capacities. SBF_FAILED and WORLD_INVALID, with the
- * first fault's place, where something is wrong, which is a fault of the runtime. Takes time in proportion to
+ * handles are alive, lists are sorted and within their capacities. SBF_FAILED with WORLD_INVALID, with the
+ * location of the first error, if something is wrong: an error of the runtime. Takes time in proportion to
  * the state. NULL is valid. */
 SBF_API sbf_status sbr_world_validate(const sbr_world *world, sbf_diagnostic *error);
 

@@ -2,7 +2,7 @@
  *
  * Each kind has its own array, oldest first. A step empties the arrays when it begins and fills them with the
  * events of all its ticks; sbr_world_tick is a step of one tick. The arrays belong to the world: they are
- * valid until the next step and until the world is destroyed. Events are output: snapshots do not hold them.
+ * valid until the next step and until the world is destroyed. Events are output: snapshots do not store them.
  * Their order does not depend on threads.
  *
  * Each array holds at most sbr_world_definition.event_capacity events; later ones of the step are lost and
@@ -54,7 +54,7 @@ typedef struct sbr_foot_event {
 } sbr_foot_event;
 
 /* Steps and landings of the last step. A landing: a character that fell from a height stands; or a fallen one
- * (sbr_character_knock_over) lies still and begins to get up. */
+ * (sbr_character_knock_over) is at rest and begins to get up. */
 typedef struct sbr_foot_events {
   const sbr_foot_event *down;   /* (down_count) set down */
   const sbr_foot_event *up;     /* (up_count) lifted */

@@ -10,8 +10,8 @@
  *
  * Rules are those of sbrun.h: setters ignore invalid handles, getters then return zeros. No call here
  * allocates. The first tick in which a character has simulated bodies allocates working memory, which is
- * freed a second after all are kinematic again. Everything set here is state, held by snapshots. Lengths are
- * world metres; masses and torques are those of the asset times the character's scale
+ * freed a second after all are kinematic again. Everything set here is state, stored in snapshots. Lengths
+ * are world metres; masses and torques are those of the asset times the character's scale
  * (sbr_character_definition.scale). */
 #ifndef SBRUN_RIGID_H
 #define SBRUN_RIGID_H
@@ -24,9 +24,9 @@ extern "C" {
 
 /* How a rigid body moves. */
 typedef enum sbr_rigid_mode {
-  SBR_RIGID_KINEMATIC, /* its bone; without one, the root frame */
-  SBR_RIGID_PASSIVE,   /* weight, joints, ground, pushes */
-  SBR_RIGID_DRIVEN     /* these, and its joint's pull towards the animated pose */
+  SBR_RIGID_KINEMATIC, /* follows its bone; without one, the root frame */
+  SBR_RIGID_PASSIVE,   /* moved by weight, joints, contacts and impulses */
+  SBR_RIGID_DRIVEN     /* passive, and its joint's drive acts towards the animated pose */
 } sbr_rigid_mode;
 
 /* Drive of the joints of driven bodies towards the animated pose. */
@@ -34,13 +34,14 @@ typedef struct sbr_rigid_drive {
   uint32_t cookie;     /* set by sbr_default_rigid_drive; without it the call does nothing */
   float frequency_hz;  /* (0, 100]: natural frequency of a joint with its load; default 4 */
   float damping_ratio; /* [0, 10]: damping ratio of that; default 1, without overshoot */
-  /* Torque limit of a joint, in multiples of the torque that holds its load level against the earth's
-   * gravity; 0: no limit. Default 2: it holds any pose and gives way to a push. */
+  /* Torque limit of a joint, in multiples of the torque that supports its load horizontally in the
+   * earth's gravity; 0: no limit. Default 2: it keeps any pose and yields to an impulse. */
   float strength;
   /* [0, 100] 1/s: decay rate of relative rotation in joints between bones, driven or not; default 2. */
   float joint_damping_1_s;
-  /* [0, 1]: dry friction of such joints, as a fraction of the torque that holds the load level against the
-   * earth's gravity; default 0.04. A swinging limb comes to rest within 2.3 degrees of where it would hang.
+  /* [0, 1]: dry friction of such joints, as a fraction of the torque that supports the load horizontally in
+   * the earth's gravity; default 0.04. A swinging limb comes to rest within 2.3 degrees of where it would
+   * hang.
    */
   float joint_friction;
 } sbr_rigid_drive;
@@ -63,20 +64,20 @@ SBF_API void sbr_character_set_rigid_drive_fraction(
 /* Settings of falling and getting up. */
 typedef struct sbr_fall_definition {
   uint32_t cookie;      /* set by sbr_default_fall_definition; without it the call does nothing */
-  float drive_fraction; /* [0, 1] of its drive that it has while it falls; default 0.1 */
-  float rest_s;         /* s that it lies still before it gets up; default 0.5; of its own, as all here are */
-  float rise_s;         /* s in which it gets up; default 1.5, at least 0.1 */
+  float drive_fraction; /* [0, 1], of its drive while it falls; default 0.1 */
+  float rest_s; /* s at rest before it gets up; default 0.5; in the character's own time, as `rise_s` */
+  float rise_s; /* s, duration of getting up; default 1.5, at least 0.1 */
 } sbr_fall_definition;
 
 /* Phase of a fall. */
 typedef enum sbr_posture {
   SBR_POSTURE_UPRIGHT, /* no fall: its bodies' modes apply */
-  SBR_POSTURE_FALLING, /* it falls or lies */
-  SBR_POSTURE_RISING   /* it gets up */
+  SBR_POSTURE_FALLING, /* falls or lies */
+  SBR_POSTURE_RISING   /* gets up */
 } sbr_posture;
 
 /* Knocks the character over. All bodies that the file does not make dynamic are driven with a fraction of the
- * drive's strength until they lie still (or for 5 s plus rest_s). Then the strength grows, and a force on
+ * drive's strength until they are at rest (or for 5 s plus rest_s). Then the strength grows, and a force on
  * each body helps it up to the pose of its gait or clip; walking waits. When it stands its bodies are
  * kinematic again. A reset or teleport ends the fall. Apply the hit with sbr_character_apply_rigid_impulse
  * after this call. */
@@ -125,7 +126,7 @@ typedef struct sbr_joint_state {
   float angle_violation;  /* rad: maximum violation of a hard angular limit */
   float length_violation; /* m: maximum violation of a hard linear limit */
   sbf_vec3 force, torque; /* N and N m on body b at its frame, mean of the tick */
-  bool broken;            /* it was overloaded and holds nothing until the character is reset */
+  bool broken;            /* overloaded: it does not act until the character is reset */
 } sbr_joint_state;
 SBF_API sbr_joint_state sbr_character_get_joint_state(
     const sbr_world *world, sbr_character_id character, uint32_t joint);

@@ -1,6 +1,6 @@
 /* The runtime: simulates loaded assets inside any engine.
  *
- * A model is made once from an asset and never changes; many characters share it. A world holds characters
+ * A model is made once from an asset and never changes; many characters share it. A world contains characters
  * and steps them. Units are SI. World space is right-handed, +Y up. A character with heading 0 faces +Z; a
  * growing heading turns it left, towards +X.
  *
@@ -17,7 +17,7 @@
  *
  * Robustness. The acceleration that bones give to a body is limited to a quarter of the body's size a tick. A
  * body whose bones jump by more than its size in a tick moves along with them. A body that has lost its shape
- * or has non-finite numbers is put back into its rest shape; sbr_body_health.recoveries counts that.
+ * or has non-finite numbers is reset to its rest shape; sbr_body_health.recoveries counts that.
  *
  * Threads. A world and its characters belong to one thread at a time. Different worlds are independent.
  * Models are read only: worlds on different threads may share them. A step allocates only when characters
@@ -111,8 +111,8 @@ typedef struct sbr_model_options {
   uint32_t substeps; /* per control tick; 0: the level's own, or as many as the scheme needs */
   bool free; /* drops all pins: bodies fall off the bones, and all their points have mass, interior points in
                 proportion to the stiffness of their springs */
-  bool has_gravity; /* rest shapes of sag-free bodies bear `gravity` instead of the asset's; set it as in the
-                       world */
+  bool has_gravity; /* rest shapes of sag-free bodies balance `gravity` instead of the asset's; set it as in
+                       the world */
   sbf_vec3 gravity; /* m/s^2 */
   uint32_t tear_points; /* number of points that tearing may add to each body; 0: half of its points */
   float step_error_m;   /* maximum error of a step of a scheme with error control (heun); 0: the file's, else
@@ -166,7 +166,7 @@ typedef struct sbr_world_definition {
   double longest_frame_s;         /* a longer frame time is cut to it; 0: 0.25 */
   uint32_t character_capacity;    /* 0: 16; more than that cannot be created */
   /* Time at rest before a body falls asleep, in seconds. 0 disables sleeping. Default 0.5. A body rests if
-   * all its points are slower than a hundredth of its size a second and nothing that holds it moves. */
+   * all its points are slower than a hundredth of its size a second and its pins do not move. */
   double sleep_after_s;
   uint32_t collider_capacity; /* 0: 64; of sbrun/collision.h; more than that cannot be created */
   uint32_t event_capacity;    /* 0: 256; events of each kind that a step can report (sbrun/events.h) */
@@ -206,17 +206,17 @@ SBF_API sbf_status sbr_world_restore_snapshot(sbr_world *world, const void *byte
 /* Initial state of a character. */
 typedef struct sbr_character_definition {
   uint32_t cookie;      /* set by sbr_default_character_definition */
-  sbr_double3 position; /* of the asset's origin; y counts from the ground below it, colliders left out; who
-                           walks, crawls, rolls or slithers falls from there */
+  sbr_double3 position; /* of the asset's origin; y counts from the ground below it, without colliders;
+                           characters that walk, crawl, roll or slither fall from there */
   float heading;        /* rad */
   /* [1e-6, 1e6], default 1. Lengths scale by it, masses by its cube, stiffnesses (N/m) by its square and
-   * times by its square root: the same shape under the same gravity, moving as a body of that size does. */
+   * times by its square root: the same shape under the same gravity moves as a body of that size does. */
   float scale;
-  bool hold;         /* bones stay in their rest pose */
-  sbr_ground ground; /* of its own, where `height` is set; else the world's: characters of one world may stand
-                        on floors above each other */
-  uint32_t detail_level; /* the level of detail that it begins on (sbrun/detail.h), beyond the last: the last;
-                    default 0: the finest */
+  bool hold_pose;        /* bones stay in their rest pose */
+  sbr_ground ground;     /* its own ground if `height` is set, else the world's; characters of one world may
+                            stand on floors above each other */
+  uint32_t detail_level; /* initial level of detail (sbrun/detail.h); beyond the last: the last; default 0:
+                    the finest */
   void *user_data;       /* the host's */
 } sbr_character_definition;
 
@@ -246,7 +246,7 @@ SBF_API void sbr_character_displace(sbr_world *world, sbr_character_id character
  * definition. */
 SBF_API void sbr_character_teleport(
     sbr_world *world, sbr_character_id character, sbr_double3 position, float heading);
-/* Puts the character into its rest pose where it stands, with zero velocities; forces and holds
+/* Puts the character into its rest pose at its position, with zero velocities; forces and grabs
  * (sbrun/soft_body.h) end. */
 SBF_API void sbr_character_reset(sbr_world *world, sbr_character_id character);
 /* Wakes all sleeping bodies of the character. Needed only after a change that the runtime cannot see. Moving
@@ -317,17 +317,16 @@ typedef struct sbr_object {
 
 /* Measures of a body after the last tick. Springs between two bodies count for the first. */
 typedef struct sbr_body_health {
-  float volume_ratio;  /* enclosed volume of the surface against rest; 1 for an open surface */
+  float volume_ratio;  /* enclosed volume of the surface relative to rest; 1 for an open surface */
   float max_strain;    /* maximum |strain| of an element */
   bool finite;         /* all its numbers are finite */
   bool inverted;       /* an element, or the surface of a body without tetrahedra, is inside out */
-  uint32_t recoveries; /* how often it was put back into its rest shape */
-  double kinetic_j, elastic_j, potential_j; /* potential is that of weight, 0 at the height of world y = 0 */
-  uint32_t torn;                            /* elements that have torn since it was made or reset */
-  uint32_t
-      unsplit; /* points that tears of bodies that hang together could not split, for want of tear_points */
-  bool asleep; /* it is not stepped */
-  bool rigid;  /* put back several times in a row, it moves as a rigid body for a second or more */
+  uint32_t recoveries; /* number of resets to its rest shape */
+  double kinetic_j, elastic_j, potential_j; /* potential energy of weight is 0 at world y = 0 */
+  uint32_t torn;                            /* elements torn since its creation or reset */
+  uint32_t unsplit;        /* points that tears could not split, because tear_points was too small */
+  bool asleep;             /* it is not stepped */
+  bool rigid;              /* reset several times in a row: moves as a rigid body for a second or more */
   float min_element_ratio; /* minimum volume ratio of a tetrahedron, below 0 if inverted; 1 without
                               tetrahedra */
 } sbr_body_health;
@@ -347,10 +346,10 @@ SBF_API uint32_t sbr_model_get_body_substeps(const sbr_model *model, uint32_t so
 /* State of a leg of the gait. */
 typedef struct sbr_leg_state {
   bool planted;         /* stands on the ground */
-  uint32_t steps_taken; /* since it was placed */
+  uint32_t steps_taken; /* since the last teleport */
   sbf_vec3 foot;        /* middle of its sole, relative to the origin */
-  sbf_vec3 target;      /* where it will come down, or stands */
-  sbf_vec3 pole;        /* that its knee points to */
+  sbf_vec3 target;      /* next foothold, or the present one */
+  sbf_vec3 pole;        /* point that its knee points to */
   float phase;          /* 0..1 of a step while lifted */
 } sbr_leg_state;
 SBF_API uint32_t sbr_character_get_legs(

@@ -50,7 +50,7 @@ void sbri_loads_apply(const sbri_island_tick *t, const sbri_body *body, float *v
   for (uint32_t i = 0; i < t->environment.load_count; i++) {
     const sbri_load_now *load = &t->environment.loads[i];
     if (&t->model->bodies[load->body] != body) continue;
-    sbf_vec3 impulse = load->holds ? drag_impulse(t, load, velocities, h) : sbri_scale(load->force, h);
+    sbf_vec3 impulse = load->is_grab ? drag_impulse(t, load, velocities, h) : sbri_scale(load->force, h);
     if (load->at.count > 0)
       apply_impulse(t, &load->at, velocities, impulse);
     else

@@ -24,7 +24,7 @@ sbri_gait_input sbri_gait_input_of(
     const sbr_world *world, const sbri_character *c, sbri_surroundings *around) {
   const sbri_character_state *head = sbri_header(c);
   const sbri_surroundings *seen = query_around(world, c, around);
-  bool up = !c->model->rigid.body_count || sbri_rigid_drive(c)->posture == SBR_POSTURE_UPRIGHT;
+  bool up = !c->model->rigid.body_count || sbri_rigid_drive(c)->fall.posture == SBR_POSTURE_UPRIGHT;
   return (sbri_gait_input){.forward = up ? head->forward : 0,
       .sideways = up ? head->sideways : 0,
       .turn = up ? head->turn : 0,

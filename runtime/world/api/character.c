@@ -109,7 +109,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
   }
   sbri_character *c = &world->characters[index];
   *c = (sbri_character){.generation = (c->generation + 1) & 0xffff,
-      .hold = definition->hold,
+      .hold = definition->hold_pose,
       .scale = definition->scale,
       .time_scale = 1 / sqrtf(definition->scale),
       .ground = definition->ground.height ? definition->ground : world->ground,

@@ -12,7 +12,7 @@ sbr_detail_definition sbr_default_detail_definition(void) {
       .ns_per_visit = 6,
       .coarsen_fraction = 0.7f,
       .stay_s = 0.5f,
-      .away_after_s = 1};
+      .offscreen_after_s = 1};
 }
 
 void sbri_detail_free(sbr_world *world) {
@@ -47,7 +47,8 @@ sbf_status sbr_world_select_detail_levels(
   if (!(definition->error_px > 0) || !(definition->ns_per_visit > 0) || !(definition->coarsen_fraction > 0) ||
       definition->coarsen_fraction > 1 || !(definition->budget_us >= 0) || !(definition->stay_s >= 0))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_select_detail_levels: error_px %g and ns_per_visit %g must be above 0, settle %g within "
+        "sbr_world_select_detail_levels: error_px %g and ns_per_visit %g must be above 0, coarsen_fraction "
+        "%g within "
         "(0, 1], "
         "budget_us "
         "%g and stay_s %g not below 0",
@@ -55,11 +56,11 @@ sbf_status sbr_world_select_detail_levels(
         (double)definition->budget_us, (double)definition->stay_s);
   const double numbers[6] = {(double)definition->error_px, (double)definition->budget_us,
       (double)definition->ns_per_visit, (double)definition->coarsen_fraction, (double)definition->stay_s,
-      (double)definition->away_after_s};
+      (double)definition->offscreen_after_s};
   if (!sbri_usable(numbers, 6))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_world_select_detail_levels: error_px %g, budget_us %g, ns_per_visit %g, stay_s %g or "
-        "away_after_s %g is invalid: use finite numbers up to 1e15",
+        "offscreen_after_s %g is invalid: use finite numbers up to 1e15",
         numbers[0], numbers[1], numbers[2], numbers[4], numbers[5]);
   if (!world->detail && !make(world))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to choose levels of detail");
@@ -85,11 +86,11 @@ void sbr_world_set_views(sbr_world *world, const sbr_view *views, uint32_t count
     sbri_view_set(world, i, count < SBR_MAX_VIEWS ? count : SBR_MAX_VIEWS, &views[i]);
 }
 
-void sbr_character_set_visibility(sbr_world *world, sbr_character_id character, sbr_visibility shown) {
+void sbr_character_set_visibility(sbr_world *world, sbr_character_id character, sbr_visibility visibility) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
-  sbri_record(world, SBRI_RECORDED_SHOWN, (const double[]){character.value, shown});
-  sbri_header(c)->shown = (uint32_t)shown;
+  sbri_record(world, SBRI_RECORDED_VISIBILITY, (const double[]){character.value, visibility});
+  sbri_header(c)->visibility = (uint32_t)visibility;
 }
 
 float sbr_character_get_error_px(const sbr_world *world, sbr_character_id character) {

@@ -69,9 +69,9 @@ static sbf_vec3 vec3_at(const double *n) {
 /* Returns false for other calls. A call that failed while it was recorded fails again. */
 static bool play_soft(sbr_world *world, sbri_recorded what, sbr_character_id id, const double *n) {
   uint32_t body = whole(n[1]), vertex = whole(n[2]);
-  sbr_soft_hold hold = sbr_default_soft_hold();
-  hold.target = (sbr_double3){n[3], n[4], n[5]};
-  hold.frequency_hz = (float)n[6], hold.damping_ratio = (float)n[7], hold.max_force = (float)n[8];
+  sbr_vertex_grab grab = sbr_default_vertex_grab();
+  grab.target = (sbr_double3){n[3], n[4], n[5]};
+  grab.frequency_hz = (float)n[6], grab.damping_ratio = (float)n[7], grab.max_force = (float)n[8];
   if (what == SBRI_RECORDED_SOFT_VELOCITY)
     (void)sbr_character_set_soft_velocity(world, id, body, vec3_at(n + 2), vec3_at(n + 5), NULL);
   else if (what == SBRI_RECORDED_SOFT_IMPULSE)
@@ -79,7 +79,7 @@ static bool play_soft(sbr_world *world, sbri_recorded what, sbr_character_id id,
   else if (what == SBRI_RECORDED_SOFT_FORCE)
     (void)sbr_character_apply_soft_force(world, id, body, vertex, vec3_at(n + 3), (float)n[6], NULL);
   else if (what == SBRI_RECORDED_SOFT_HOLD)
-    (void)sbr_character_hold_vertex(world, id, body, vertex, &hold, NULL);
+    (void)sbr_character_grab_vertex(world, id, body, vertex, &grab, NULL);
   else if (what == SBRI_RECORDED_SOFT_RELEASE)
     (void)sbr_character_release_vertex(world, id, body, vertex);
   else
@@ -148,7 +148,7 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
   case SBRI_RECORDED_DETAIL_LEVEL:
     sbr_character_set_detail_level(r->world, id, whole(n[1]));
     break;
-  case SBRI_RECORDED_SHOWN:
+  case SBRI_RECORDED_VISIBILITY:
     sbr_character_set_visibility(r->world, id, (sbr_visibility)whole(n[1]));
     break;
   case SBRI_RECORDED_VIEW:

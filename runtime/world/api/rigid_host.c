@@ -80,7 +80,7 @@ void sbr_character_knock_over(sbr_world *world, sbr_character_id character, cons
 
 sbr_posture sbr_character_get_posture(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);
-  return has_body(c, -1) ? (sbr_posture)sbri_rigid_drive(c)->posture : SBR_POSTURE_UPRIGHT;
+  return has_body(c, -1) ? (sbr_posture)sbri_rigid_drive(c)->fall.posture : SBR_POSTURE_UPRIGHT;
 }
 
 void sbr_character_apply_rigid_impulse(sbr_world *world, sbr_character_id character, uint32_t rigid_body,

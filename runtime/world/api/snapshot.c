@@ -121,7 +121,7 @@ sbf_status sbr_world_restore_snapshot(sbr_world *world, const void *bytes, size_
 static void hash_detail_level(sbfi_hash64 *hash, const sbri_character *c) {
   const sbri_character_state *head = sbri_header(c);
   const uint32_t words[10] = {head->detail_level, head->next_detail_level, head->set_detail_level_plus_1,
-      head->detail_level_ticks, head->fade_ticks, head->fades_ticks, head->shown, head->unseen_ticks,
+      head->detail_level_ticks, head->fade_ticks, head->fades_ticks, head->visibility, head->unseen_ticks,
       head->fade_kept, head->swing_ticks};
   const float fractions[2] = {head->fade, head->fade_before};
   const uint32_t *first = c->model->detail.base->detail.first_vertices;

@@ -144,10 +144,10 @@ sbf_status sbr_character_apply_soft_impulse(sbr_world *world, sbr_character_id c
 
 /* ---- Persistent loads ---- */
 
-static sbri_load *find_hold(sbri_character *c, uint32_t soft_body, uint32_t vertex) {
+static sbri_load *find_grab(sbri_character *c, uint32_t soft_body, uint32_t vertex) {
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++) {
     sbri_load *load = &sbri_loads(c)[i];
-    if (load->kind == SBRI_LOAD_HOLD && load->body == soft_body && load->vertex == vertex) return load;
+    if (load->kind == SBRI_LOAD_GRAB && load->body == soft_body && load->vertex == vertex) return load;
   }
   return NULL;
 }
@@ -156,7 +156,7 @@ static sbri_load *find_free_index(const soft_call *call, sbf_status *status, sbf
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++)
     if (sbri_loads(call->c)[i].kind == SBRI_LOAD_NONE) return &sbri_loads(call->c)[i];
   *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-      "%s: the character already has its maximum of %d forces and holds: release one, or wait", call->name,
+      "%s: the character already has its maximum of %d forces and grabs: release one, or wait", call->name,
       SBR_LOAD_CAPACITY);
   return NULL;
 }
@@ -183,49 +183,49 @@ sbf_status sbr_character_apply_soft_force(sbr_world *world, sbr_character_id cha
   return SBF_OK;
 }
 
-enum { HOLD_COOKIE = 0x5b72686f };
+enum { GRAB_COOKIE = 0x5b72686f };
 
-sbr_soft_hold sbr_default_soft_hold(void) {
-  return (sbr_soft_hold){.cookie = HOLD_COOKIE, .damping_ratio = 1};
+sbr_vertex_grab sbr_default_vertex_grab(void) {
+  return (sbr_vertex_grab){.cookie = GRAB_COOKIE, .damping_ratio = 1};
 }
 
-static sbf_status check_hold(const char *name, const sbr_soft_hold *hold, sbf_diagnostic *error) {
-  if (hold->cookie != HOLD_COOKIE)
+static sbf_status check_grab(const char *name, const sbr_vertex_grab *grab, sbf_diagnostic *error) {
+  if (grab->cookie != GRAB_COOKIE)
     return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "%s: hold was not initialised: begin with sbr_default_soft_hold()", name);
-  if (!(hold->frequency_hz >= 0 && hold->frequency_hz <= 100))
+        error, SBF_CODE_BAD_CALL, "%s: grab was not initialised: begin with sbr_default_vertex_grab()", name);
+  if (!(grab->frequency_hz >= 0 && grab->frequency_hz <= 100))
     return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "%s: frequency_hz is %g: use 0 to 100", name, (double)hold->frequency_hz);
-  if (!(hold->damping_ratio >= 0 && hold->damping_ratio <= 10))
+        error, SBF_CODE_BAD_CALL, "%s: frequency_hz is %g: use 0 to 100", name, (double)grab->frequency_hz);
+  if (!(grab->damping_ratio >= 0 && grab->damping_ratio <= 10))
     return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "%s: damping_ratio is %g: use 0 to 10", name, (double)hold->damping_ratio);
-  if (!(hold->max_force >= 0))
+        error, SBF_CODE_BAD_CALL, "%s: damping_ratio is %g: use 0 to 10", name, (double)grab->damping_ratio);
+  if (!(grab->max_force >= 0))
     return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "%s: max_force is %g N: use 0 or more", name, (double)hold->max_force);
+        error, SBF_CODE_BAD_CALL, "%s: max_force is %g N: use 0 or more", name, (double)grab->max_force);
   return SBF_OK;
 }
 
-sbf_status sbr_character_hold_vertex(sbr_world *world, sbr_character_id character, uint32_t soft_body,
-    uint32_t vertex, const sbr_soft_hold *hold, sbf_diagnostic *error) {
-  soft_call call = {.name = "sbr_character_hold_vertex"};
+sbf_status sbr_character_grab_vertex(sbr_world *world, sbr_character_id character, uint32_t soft_body,
+    uint32_t vertex, const sbr_vertex_grab *grab, sbf_diagnostic *error) {
+  soft_call call = {.name = "sbr_character_grab_vertex"};
   sbf_status status;
-  if (!hold) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: hold is NULL", call.name);
+  if (!grab) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: grab is NULL", call.name);
   if (!find_body(world, character, soft_body, &call, &status, error) ||
       !find_vertex(&call, vertex, false, &status, error))
     return status;
-  const double numbers[9] = {character.value, soft_body, vertex, hold->target.x, hold->target.y,
-      hold->target.z, (double)hold->frequency_hz, (double)hold->damping_ratio, (double)hold->max_force};
+  const double numbers[9] = {character.value, soft_body, vertex, grab->target.x, grab->target.y,
+      grab->target.z, (double)grab->frequency_hz, (double)grab->damping_ratio, (double)grab->max_force};
   if ((status = check_numbers(call.name, numbers, 9, error)) != SBF_OK ||
-      (status = check_hold(call.name, hold, error)) != SBF_OK)
+      (status = check_grab(call.name, grab, error)) != SBF_OK)
     return status;
-  sbri_load *load = find_hold(call.c, soft_body, vertex);
+  sbri_load *load = find_grab(call.c, soft_body, vertex);
   if (!load) load = find_free_index(&call, &status, error);
   if (!load) return status;
   sbri_record(world, SBRI_RECORDED_SOFT_HOLD, numbers);
-  load->kind = SBRI_LOAD_HOLD, load->body = soft_body, load->vertex = vertex;
-  load->target = hold->target;
-  load->frequency_hz = hold->frequency_hz > 0 ? hold->frequency_hz : 5;
-  load->damping_ratio = hold->damping_ratio, load->max_force = hold->max_force;
+  load->kind = SBRI_LOAD_GRAB, load->body = soft_body, load->vertex = vertex;
+  load->target = grab->target;
+  load->frequency_hz = grab->frequency_hz > 0 ? grab->frequency_hz : 5;
+  load->damping_ratio = grab->damping_ratio, load->max_force = grab->max_force;
   wake(call.c, call.body);
   return SBF_OK;
 }
@@ -233,7 +233,7 @@ sbf_status sbr_character_hold_vertex(sbr_world *world, sbr_character_id characte
 bool sbr_character_release_vertex(
     sbr_world *world, sbr_character_id character, uint32_t soft_body, uint32_t vertex) {
   sbri_character *c = sbri_character_of(world, character);
-  sbri_load *load = c ? find_hold(c, soft_body, vertex) : NULL;
+  sbri_load *load = c ? find_grab(c, soft_body, vertex) : NULL;
   if (!load) return false;
   sbri_record(world, SBRI_RECORDED_SOFT_RELEASE, (const double[]){character.value, soft_body, vertex});
   *load = (sbri_load){0};

@@ -19,7 +19,7 @@ static uint32_t detail_level_for(const sbr_world *world, const sbri_character *c
   uint32_t last = last_posed(c), now = head->next_detail_level < last ? head->next_detail_level : last,
            found = 0;
   if (!(pixels > 0)) {
-    float after = detail->is.away_after_s;
+    float after = detail->is.offscreen_after_s;
     return !c->near && after >= 0 && head->unseen_ticks >= sbri_ticks_of(world, after)
                ? base->detail.level_count - 1
                : last;

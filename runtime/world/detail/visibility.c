@@ -38,7 +38,7 @@ float sbri_pixels_of(const sbr_world *world, const sbri_character *c) {
   sbf_vec3 root = sbri_pose(c)[sbri_root_frame(c->model)].position;
   float radius = radius_of(c), max = 0;
   float margin = head->unseen_ticks > 0 ? MARGIN : MORE_MARGIN;
-  for (uint32_t i = 0; i < detail->eye_count && head->shown != SBR_VISIBILITY_NEVER; i++) {
+  for (uint32_t i = 0; i < detail->eye_count && head->visibility != SBR_VISIBILITY_NEVER; i++) {
     const sbri_eye *eye = &detail->eyes[i];
     const sbr_double3 *at = &eye->view.eye;
     sbf_vec3 to = {(float)(head->origin.x - at->x) + root.x, (float)(head->origin.y - at->y) + root.y,
@@ -47,7 +47,7 @@ float sbri_pixels_of(const sbr_world *world, const sbri_character *c) {
     float across = sqrtf(fmaxf(square - along * along, 0));
     float beyond = across * eye->cone_cosine - along * eye->cone_sine;
     bool within = distance <= radius || beyond <= radius + margin * distance;
-    if (!within && head->shown != SBR_VISIBILITY_ALWAYS) continue;
+    if (!within && head->visibility != SBR_VISIBILITY_ALWAYS) continue;
     float near_m = fmaxf(distance - radius, NEAREST_M);
     max = fmaxf(max, eye->pixels / near_m);
   }

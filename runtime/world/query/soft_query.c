@@ -20,12 +20,12 @@ sbr_soft_motion sbr_character_get_soft_motion(
       .angular_velocity = sbri_scale(own.angular_velocity, c->time_scale)};
 }
 
-sbf_vec3 sbr_character_get_hold_force(
+sbf_vec3 sbr_character_get_grab_force(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body, uint32_t vertex) {
   const sbri_character *c = sbri_character_of(world, character);
   for (uint32_t i = 0; c && i < SBR_LOAD_CAPACITY; i++) {
     const sbri_load *load = &sbri_loads(c)[i];
-    if (load->kind != SBRI_LOAD_HOLD || load->body != soft_body || load->vertex != vertex) continue;
+    if (load->kind != SBRI_LOAD_GRAB || load->body != soft_body || load->vertex != vertex) continue;
     float fraction = 1 / (sbri_own_impulse(c) * (float)world->time.tick_s);
     return sbri_scale((sbf_vec3){load->impulse[0], load->impulse[1], load->impulse[2]}, fraction);
   }

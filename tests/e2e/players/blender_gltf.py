@@ -1,4 +1,4 @@
-"""In Blender: what it shows of a glTF file at a frame, as JSON in a file: for each mesh its vertices at rest and where they are then,
+"""In Blender: the meshes of a glTF file at a frame, as JSON in a file: for each mesh its vertices at rest and where they are then,
 in the file's axes."""
 
 import json

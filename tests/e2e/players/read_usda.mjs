@@ -1,4 +1,4 @@
-// TinyUSDZ, a reader of USD in C++ by others, on a .usda: the layer as it prints it again to OUT; what it would draw, as JSON.
+// TinyUSDZ, an independent reader of USD in C++, on a .usda: prints the layer to OUT, and its meshes as JSON.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 

@@ -18,7 +18,7 @@ for (let t = 0; t < Number(seconds); t += model.opt.timestep) {
   fastest = Math.max(fastest, speed);
   falls = Math.max(falls, speed / (9.81 * data.time));
   touches = Math.max(touches, data.ncon);
-  const contacts = data.contact; // copies, which nobody else lets go of
+  const contacts = data.contact; // copies, which nobody else frees
   for (let i = 0; i < data.ncon; i++) {
     const contact = contacts.get(i), { geom, flex: soft } = contact;
     pairs.add([0, 1].map(side => geom[side] < 0 ? flex(soft[side]) : hull(geom[side])).sort().join(' '));

@@ -1,4 +1,4 @@
-/* Loads a file of either form through the SDK, and says what it holds. */
+/* Loads a file of either form through the SDK and prints its contents. */
 #include <stdio.h>
 
 #include "sbfmt/io.h"

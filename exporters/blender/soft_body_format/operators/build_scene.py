@@ -23,7 +23,7 @@ def built_scene(operator, context, change=None):
         change(whole)
     scene = context.scene
     built = yield from build_in_steps(whole.document, build_arguments(scene, Space.of_scene(scene).unit_m),
-                                      scene.soft_body_format.mends_files)
+                                      scene.soft_body_format.repairs_files)
     return built, whole
 
 

@@ -24,7 +24,7 @@ def find(context):
         findings.info(f"only what the add-on itself knows was checked: the compiled library {sbfmt.library_fault()}")
     elif not findings.errors:
         try:
-            repaired = repair_reporter(findings, whole.locator) if context.scene.soft_body_format.mends_files else None
+            repaired = repair_reporter(findings, whole.locator) if context.scene.soft_body_format.repairs_files else None
             with to_asset(whole.document, repaired) as asset:
                 check(asset, "", findings, whole.locator)
             findings[:] = [one for one in findings if one.code != "DERIVED_STALE"]  # an export builds the derived parts again
@@ -118,7 +118,7 @@ class SBFMT_OT_repair(bpy.types.Operator):
     def description(cls, context, properties):
         settings = context.scene.soft_body_format
         if 0 <= properties.index < len(settings.findings):
-            repair = repair_of(settings.findings[properties.index], settings.mends_files)
+            repair = repair_of(settings.findings[properties.index], settings.repairs_files)
             if repair is not None:
                 return f"{repair.label}, and check again"
         return "Repair everything that has one right answer, and check again"
@@ -128,13 +128,13 @@ class SBFMT_OT_repair(bpy.types.Operator):
         settings, done = context.scene.soft_body_format, set()
         chosen = [one for index, one in enumerate(settings.findings) if self.index in (-1, index)]
         for finding in chosen:
-            repair = repair_of(finding, settings.mends_files)
+            repair = repair_of(finding, settings.repairs_files)
             if repair is None:
                 continue
             source = context.scene.objects.get(finding.object_name)
             what = (repair.label, finding.object_name, finding.bone_name)
             if repair.act is None:
-                settings.mends_files = True
+                settings.repairs_files = True
             elif source is None or source.library is not None:
                 self.report({"WARNING"}, f"{finding.object_name} is linked from another file: repair it in that file")
                 continue

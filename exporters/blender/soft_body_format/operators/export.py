@@ -67,7 +67,7 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
         whole = write_whole(context, Options(self.selected_only, self.collection, self.apply_modifiers, textures), findings)
         arguments = build_arguments(context.scene, whole.writer.space.unit_m) if self.build and whole.changed else None
         written = not findings.errors and finish(whole.document, self.filepath, arguments, findings, whole.locator,
-                                                 whole.writer.materials.files, context.scene.soft_body_format.mends_files)
+                                                 whole.writer.materials.files, context.scene.soft_body_format.repairs_files)
         put_in_list(context.scene.soft_body_format, findings)
         findings.show(self)
         if not written:

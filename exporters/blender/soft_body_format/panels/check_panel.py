@@ -14,7 +14,7 @@ class SBFMT_UL_findings(bpy.types.UIList):
     def draw_item(self, context, layout, _data, item, _icon, _active_data, _active_name, index):
         location = item.object_name + (f", {item.bone_name}" if item.bone_name else "")
         layout.label(text=f"{location}: {item.message}" if location else item.message, icon=self.ICONS.get(item.severity, "DOT"))
-        if repair_of(item, context.scene.soft_body_format.mends_files) is not None:
+        if repair_of(item, context.scene.soft_body_format.repairs_files) is not None:
             layout.operator("sbfmt.repair", text="", icon="TOOL_SETTINGS", emboss=False).index = index
         if location:
             layout.operator("sbfmt.select_finding", text="", icon="RESTRICT_SELECT_OFF", emboss=False).index = index
@@ -38,13 +38,13 @@ class SBFMT_PT_check(ScenePanel, bpy.types.Panel):
             row = layout.row(align=True)
             if finding.object_name:
                 row.operator("sbfmt.select_finding", icon="RESTRICT_SELECT_OFF").index = settings.active_finding
-            repair = repair_of(finding, settings.mends_files)
+            repair = repair_of(finding, settings.repairs_files)
             if repair is not None:
                 row.operator("sbfmt.repair", text=repair.label, icon="TOOL_SETTINGS").index = settings.active_finding
-        if sum(repair_of(one, settings.mends_files) is not None for one in settings.findings) > 1:
+        if sum(repair_of(one, settings.repairs_files) is not None for one in settings.findings) > 1:
             layout.operator("sbfmt.repair", text="Repair all", icon="TOOL_SETTINGS").index = -1
         layout.prop(settings, "checks_live")
-        layout.prop(settings, "mends_files")
+        layout.prop(settings, "repairs_files")
 
 
 def wrapped(text, width_px):

@@ -34,7 +34,7 @@ class PreviewPanel:
             column.prop(settings, "sideways")
             column.prop(settings, "turn")
         layout.prop(settings, "follow_animation")
-        layout.prop(settings, "settle")
+        layout.prop(settings, "settling_s")
 
 
 class SBFMT_PT_preview(PreviewPanel, ScenePanel, bpy.types.Panel):

@@ -71,7 +71,7 @@ class Session:
         self.frame = frame
         self.play_clip(scene, frame)
         rate = frame_rate(scene)
-        for _ in range(round(settings.settle * rate)):
+        for _ in range(round(settings.settling_s * rate)):
             self.world.step(1 / rate)
         self.first = self.world.snapshot()
 

@@ -27,8 +27,8 @@ class SBFMT_PG_preview(bpy.types.PropertyGroup):
                            description="The path to walk along: the first spline, seen from above")
     follow_animation: BoolProperty(name="Play the animation", default=True,
                                    description="Play the armature's own animation under the gait")
-    settle: FloatProperty(name="Settle (s)", default=0, min=0, soft_max=5,
-                          description="Time simulated before the first frame, so that bodies come to rest")
+    settling_s: FloatProperty(name="Settling time (s)", default=0, min=0, soft_max=5,
+                              description="Time simulated before the first frame, so that bodies come to rest")
     bake_start: IntProperty(name="Start", default=1, description="First frame to keep")
     bake_end: IntProperty(name="End", default=250, description="Last frame to keep")
     bake_to: EnumProperty(name="Bake to", default="PC2", items=(
@@ -36,7 +36,7 @@ class SBFMT_PG_preview(bpy.types.PropertyGroup):
         ("MDD", "Point cache (.mdd)", "A file an object, played by a Mesh Cache modifier"),
         ("SHAPE_KEYS", "Shape keys", "Copies of the objects with a keyed shape for each frame")))
     bake_folder: StringProperty(name="Folder", default="//soft_body_cache", subtype="DIR_PATH", options=BAKE_FOLDER,
-                                description="Where point caches lie")
+                                description="Folder of point caches")
     key_every: IntProperty(name="A key every", default=1, min=1, soft_max=10, description="Frames from one shape key to the next")
 
 

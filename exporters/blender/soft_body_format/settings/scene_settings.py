@@ -112,7 +112,7 @@ class SBFMT_PG_scene(bpy.types.PropertyGroup):
                               "where a check takes less than half a second")
     is_checked: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
     check_time: FloatProperty(options={"HIDDEN", "SKIP_SAVE"}, description="Seconds that the last check took")
-    mends_files: BoolProperty(name="Repair files as they are written", default=False,
+    repairs_files: BoolProperty(name="Repair files as they are written", default=False,
                               description="Builds and exports repair faults that have one right answer, and report each repair")
     show_joints: EnumProperty(name="Joints", default="SELECTED", description="Joints whose limits are drawn in the viewport", items=(
         ("NONE", "None", "No joint is drawn"), ("SELECTED", "Selected", "Joints of the active armature's selected bones"),

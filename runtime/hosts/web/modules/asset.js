@@ -1,4 +1,4 @@
-/* A file that was loaded: what is in it, and models made of it. */
+/* A loaded file: its content, and models made from it. */
 import { Lent } from './lent.js';
 import { Model } from './model.js';
 import { SbfmtError } from './sbfmt_error.js';
@@ -6,7 +6,7 @@ import { SbfmtError } from './sbfmt_error.js';
 const KINDS = ['bones', 'meshes', 'softBodies', 'rigidBodies', 'clips', 'ikChains', 'legs', 'materials', 'textures'];
 const ALPHAS = ['opaque', 'mask', 'blend'];
 
-/** What to do about bytes that are another kind of file: text begins with '<', be it an .sbf or a server's page. */
+/** Advice for bytes of another kind of file: text that begins with '<' is an .sbf or a server's page. */
 function unpacked(failure, bytes) {
   const [first] = new Uint8Array(bytes.buffer, bytes.byteOffset, Math.min(bytes.byteLength, 1));
   const cure = first === 0x3c ? 'it begins as XML does, or a server\'s page; `sbfmt pack` makes one of an .sbf' :
@@ -21,7 +21,7 @@ export class Asset extends Lent {
     const c = sbfmt.calls, from = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
     if (!ArrayBuffer.isView(from)) throw new TypeError('an asset is made of the bytes of an .sbfz or .glb file: an ArrayBuffer or a Uint8Array');
     this.sbfmt = sbfmt;
-    // Lists that are stored uncompressed are used where they lie, aligned as in the file.
+    // Uncompressed lists are used in place, aligned as in the file.
     this.memory = sbfmt.room(from.byteLength + 64);
     const at = 64 * Math.ceil(this.memory / 64);
     sbfmt.bytes(at, from.byteLength).set(new Uint8Array(from.buffer, from.byteOffset, from.byteLength));

@@ -1,4 +1,4 @@
-/* A character in a world: driven, posed, pulled, and what is drawn of it. */
+/* A character in a world: drives, poses, grabs, and its meshes. */
 import { chosen, number, placeIn, triple } from './checked.js';
 import { SbfmtError } from './sbfmt_error.js';
 
@@ -7,20 +7,20 @@ const MODES = { kinematic: 0, passive: 1, driven: 2 };
 const SHOWN = ['byViews', 'always', 'never'];
 const DETAIL_AUTOMATIC = 0xffffffff, WHOLE_BODY = 0xffffffff;
 
-/** One of the characters of a world: what it is asked, and what it is now. */
+/** A character of a world: commands and state. */
 export class Character {
   constructor(world, model, options) {
     const c = world.calls;
     Object.assign(this, { world, model, sbfmt: world.sbfmt, calls: c, meshes: new Map() });
     this.id = c.web_character_create(world.handle, model.handle, ...triple(options.position, 'position', [0, 0, 0]),
-      number(options.heading, 'heading', 0), number(options.scale, 'scale', 1), options.hold ? 1 : 0);
+      number(options.heading, 'heading', 0), number(options.scale, 'scale', 1), options.holdPose ? 1 : 0);
     if (!this.id) throw this.sbfmt.failure();
     world.use(this);
     model.use(this);
     this.boneRoom = this.sbfmt.room(28 * model.asset.bones.length + 4);
   }
 
-  /** Its world's handle, while it is there. */
+  /** Handle of its world, while that exists. */
   get home() {
     if (!this.id) throw new TypeError('this character was freed');
     return this.world.handle;
@@ -58,7 +58,7 @@ export class Character {
     const [x, y, z] = position ? triple(position, 'position') : [0, 0, 0];
     this.calls.web_character_reach(this.home, this.id, ikChain, x, y, z, position ? weight : -1);
   }
-  /** The number of one of its rigid bodies. */
+  /** Index of one of its rigid bodies. */
   ofRigid(rigidBody) {
     return placeIn(rigidBody, this.model.asset.rigidBodies.length, 'rigidBody');
   }
@@ -84,7 +84,7 @@ export class Character {
       velocity: n.slice(11, 14), angularVelocity: n.slice(14, 17), mass: n[17] };
   }
 
-  /** The number of one of its soft bodies. */
+  /** Index of one of its soft bodies. */
   ofSoft(softBody) {
     return placeIn(softBody, this.model.asset.softBodies.length, 'softBody');
   }
@@ -92,8 +92,8 @@ export class Character {
     const found = this.calls.web_character_nearest_vertex(this.home, this.id, this.ofSoft(softBody), ...triple(position, 'position')) >>> 0;
     return found === WHOLE_BODY ? -1 : found;
   }
-  hold(softBody, vertex, target, { frequency = 0, maxForce = 0 } = {}) {
-    this.done(this.calls.web_character_hold(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), ...triple(target, 'target'),
+  grab(softBody, vertex, target, { frequency = 0, maxForce = 0 } = {}) {
+    this.done(this.calls.web_character_grab(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), ...triple(target, 'target'),
       number(frequency, 'frequency'), number(maxForce, 'maxForce')));
   }
   release(softBody, vertex) {
@@ -107,12 +107,12 @@ export class Character {
     this.done(this.calls.web_character_soft_force(this.home, this.id, this.ofSoft(softBody), vertex === -1 ? WHOLE_BODY : number(vertex, 'vertex'),
       ...triple(force, 'force'), number(seconds, 'seconds')));
   }
-  holdForce(softBody, vertex) {
+  grabForce(softBody, vertex) {
     const { scratch } = this.sbfmt;
-    this.calls.web_character_hold_force(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), scratch);
+    this.calls.web_character_get_grab_force(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), scratch);
     return Array.from(this.sbfmt.floats(scratch, 3));
   }
-  /** What a call that fills a list of `numbers` numbers each gives, one array each: floats and the same bits as integers. */
+  /** Results of a call that fills a list with `numbers` numbers per item: an array of floats per item, and the same bits as integers. */
   listed(call, softBody, numbers) {
     const all = (at, capacity) => this.calls[call](this.home, this.id, this.ofSoft(softBody), at, capacity);
     const count = all(0, 0), bytes = 4 * numbers * count, at = count && this.sbfmt.room(bytes), found = [];
@@ -144,7 +144,7 @@ export class Character {
     const n = Array.from(this.sbfmt.floats(scratch, 10));
     return { mass: n[0], center: n.slice(1, 4), velocity: n.slice(4, 7), angularVelocity: n.slice(7, 10) };
   }
-  /** Throws what the library refused. */
+  /** Throws the error of a refused call. */
   done(good) {
     if (!good) throw this.sbfmt.failure();
   }
@@ -191,7 +191,7 @@ export class Character {
     });
   }
 
-  /** Vertices as a graphics card wants them: made once, filled anew by each call. */
+  /** Vertices in the layout of graphics cards: allocated once, filled by each call. */
   skin(mesh = 0, level = 0) {
     const key = `${mesh}:${level}`, c = this.calls, { home } = this;
     let at = this.meshes.get(key);

@@ -1,4 +1,4 @@
-/* What calls are given, checked before the library sees it. */
+/* Checks of arguments before calls of the library. */
 
 export function number(value, name, otherwise) {
   if (value === undefined && otherwise !== undefined) return otherwise;
@@ -17,7 +17,7 @@ export function quadruple(value, name) {
   return Array.from(value, (one) => number(one, name));
 }
 
-/** A place in a list of so many. */
+/** An index below a count. */
 export function placeIn(value, count, name) {
   if (!Number.isInteger(value) || value < 0 || value >= count)
     throw new TypeError(count ? `${name} is 0 to ${count - 1}, not ${value}` : `there is no ${name} ${value}: the asset has none`);

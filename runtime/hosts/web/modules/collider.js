@@ -3,7 +3,7 @@ import { chosen, number, quadruple, triple } from './checked.js';
 
 const SHAPES = ['sphere', 'box', 'capsule'];
 
-/** What a host puts into the world for characters to meet. */
+/** A shape of the host that characters collide with. */
 export class Collider {
   constructor(world, options) {
     const c = world.calls, kind = chosen(SHAPES, options.shape ?? 'sphere', 'shape');
@@ -22,7 +22,7 @@ export class Collider {
     throw failure;
   }
 
-  /** Its world's handle, while it is there. */
+  /** Handle of its world, while that exists. */
   get home() {
     if (!this.id) throw new TypeError('this collider was freed');
     return this.world.handle;

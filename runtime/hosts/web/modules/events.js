@@ -5,7 +5,7 @@ import { EVENT_NUMBERS, EVENT_ROOM } from './memory.js';
 const EVENTS = ['footDown', 'footUp', 'landed', 'torn', 'unsplit', 'asleep', 'awake', 'contactBegin', 'contactEnd', 'contactHit',
   'detailChanged', 'memoryRefused'];
 
-/** What happened in the last step, oldest first. */
+/** Events of the last step, oldest first. */
 export function eventsOf({ sbfmt, calls, handle }) {
   const count = calls.web_world_events(handle, sbfmt.scratch, EVENT_ROOM), n = sbfmt.doubles(sbfmt.scratch, count * EVENT_NUMBERS);
   return Array.from({ length: count }, (_, i) => {

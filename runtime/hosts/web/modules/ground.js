@@ -15,7 +15,7 @@ function plainGround(ground = { kind: 'flat' }) {
   return [kind, number(ground.height, 'ground.height', 0), 0];
 }
 
-/** The numbers that a ground is made of, and what frees the memory that they lie in. */
+/** The parameters of a ground, and a function that frees their memory. */
 export function groundNumbers(memory, ground) {
   if (ground?.kind !== 'heights') return [...plainGround(ground), () => {}];
   const { heights, columns, rows } = ground, cell = number(ground.cell, 'ground.cell');
@@ -30,7 +30,7 @@ export function groundNumbers(memory, ground) {
   return [GROUNDS.indexOf('heights'), field, 0, () => { memory.calls.web_free(field); memory.calls.web_free(at); }];
 }
 
-/** Heights and unit normals of a ground at places x, z, x, z, ... */
+/** Heights and unit normals of a ground at positions x, z, x, z, ... */
 export function heightsAt(memory, ground, places) {
   const [kind, a, b, free] = groundNumbers(memory, ground);
   const count = places.length / 2, at = memory.room(places.length * 4 + count * 16);

@@ -1,6 +1,6 @@
-/* What lies in the library's memory until it is freed, and who still uses it. */
+/* Objects in the library's memory, and their users. */
 
-/** A handle that says so when it is used after it was freed, and that nothing takes away from what is made of it. */
+/** A handle that throws if it is used after it was freed, or freed while objects made from it exist. */
 export class Lent {
   #name;
   #handle = 0;
@@ -30,7 +30,7 @@ export class Lent {
   get users() {
     return [...this.#users];
   }
-  /** Before it is freed: what is made of it goes first. */
+  /** Call before it is freed: objects made from it must be freed first. */
   refuseUsers(what) {
     if (this.#users.size) throw new TypeError(`this ${this.#name} is freed after its ${what}, of which there are ${this.#users.size} left`);
   }

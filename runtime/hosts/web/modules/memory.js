@@ -1,11 +1,11 @@
-/* The library's memory: views of it, texts in it, and what it says of a failure. */
+/* The library's memory: views, texts, and the message of a failure. */
 import { SbfmtError } from './sbfmt_error.js';
 
 /** Maximum number of events of a step, and numbers of each. */
 export const EVENT_ROOM = 1024, EVENT_NUMBERS = 20;
 export const SCRATCH_BYTES = EVENT_ROOM * EVENT_NUMBERS * 8;
 
-/** All that there can be: addresses are 32 bits, which WebAssembly hands out with a sign. */
+/** Maximum size: addresses have 32 bits, which WebAssembly returns as signed numbers. */
 const MEMORY_BYTES = 2 ** 32;
 
 export class Memory {

@@ -1,11 +1,11 @@
-/* What characters of one asset share. */
+/* Data shared by the characters of one asset. */
 import { chosen, number, triple } from './checked.js';
 import { Lent } from './lent.js';
 
 const SCHEMES = ['automatic', 'symplectic', 'position_based', 'relaxation', 'explicit_euler', 'heun', 'block_descent'];
 const DETAIL_KINDS = ['soft', 'jiggle', 'bones', 'away'];
 
-/** What many characters of one asset share. */
+/** Data shared by the characters of one asset. */
 export class Model extends Lent {
   constructor(asset, options) {
     super('model');

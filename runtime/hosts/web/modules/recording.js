@@ -1,8 +1,8 @@
-/* What a world is asked, kept and played again. */
+/* Recording and replaying the calls to a world. */
 import { Lent } from './lent.js';
 import { SbfmtError } from './sbfmt_error.js';
 
-/** What a world is asked from now on. */
+/** A recording of the calls to a world from now on. */
 export class Recording {
   constructor(world) {
     this.world = world;
@@ -25,7 +25,7 @@ export class Recording {
   }
 }
 
-/** A recording that is played in a world that was made alike. */
+/** A replay of a recording in a world with the same definition. */
 export class Replay extends Lent {
   constructor(world, bytes) {
     super('replay');
@@ -42,7 +42,7 @@ export class Replay extends Lent {
     world.use(this);
   }
 
-  /** Plays up to and with the next step; false where nothing was left. */
+  /** Plays calls through the next step; false at the end. */
   frame() {
     return this.world.calls.web_replay_frame(this.handle) !== 0;
   }

@@ -1,4 +1,4 @@
-/** What the library refuses, with its code and, where the input is at fault, the place in the file. */
+/** An error of the library, with its code and, for invalid input, the location in the file. */
 export class SbfmtError extends Error {
   constructor(message, code, path) {
     super(message);

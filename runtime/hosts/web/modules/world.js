@@ -11,7 +11,7 @@ import { SbfmtError } from './sbfmt_error.js';
 
 const MOST_VIEWS = 4;
 
-/** Characters and what they meet, stepped together. */
+/** Characters and colliders, stepped together. */
 export class World extends Lent {
   constructor(sbfmt, options) {
     super('world');
@@ -85,10 +85,10 @@ export class World extends Lent {
 
   // ---- Levels of detail ----
 
-  /** From now on it chooses the detail levels of characters that are put on none. */
+  /** From now on it selects the detail levels of characters without a level set by the host. */
   detail(options = {}) {
-    const { errorPx, budget, nsPerVisit, settle, stay, awayAfter } = options, { scratch } = this.sbfmt;
-    this.sbfmt.floats(scratch, 6).set([errorPx, budget, nsPerVisit, settle, stay, awayAfter].map((one) => number(one, 'a setting', NaN)));
+    const { errorPx, budget, nsPerVisit, coarsenFraction, stay, offscreenAfter } = options, { scratch } = this.sbfmt;
+    this.sbfmt.floats(scratch, 6).set([errorPx, budget, nsPerVisit, coarsenFraction, stay, offscreenAfter].map((one) => number(one, 'a setting', NaN)));
     if (!this.calls.web_world_detail(this.handle, scratch)) throw this.sbfmt.failure();
   }
   views(views) {
@@ -103,7 +103,7 @@ export class World extends Lent {
 
   // ---- Recordings ----
 
-  /** Begins a recording; the one before is dropped. */
+  /** Begins a recording; discards the previous one. */
   record() {
     this.recording?.free();
     this.recording = undefined;
@@ -121,7 +121,7 @@ export class World extends Lent {
     return new Replay(this, bytes);
   }
 
-  /** With its characters and colliders. */
+  /** Frees it with its characters and colliders. */
   free() {
     if (this.freed) return;
     for (const one of this.users) one.free();
