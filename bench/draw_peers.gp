@@ -1,5 +1,6 @@
-# Error against cost of every engine, a case each: docs/media/peers-CASE.svg from bench/results/xeon-2-cores/peers.csv.
-#   gnuplot bench/draw_peers.gp        in the checkout's root
+# Error against cost of every engine, a case each: FOLDER/peers-CASE.svg from a table of `./run bench peers`.
+#   gnuplot [-e "results = 'TABLE.csv'; folder = 'FOLDER'"] bench/draw_peers.gp
+# In the checkout's root; else from bench/results/xeon-2-cores/peers.csv into docs/media.
 set encoding utf8
 set terminal svg size 860,460 font "DejaVu Sans,13" background "#ffffff"
 set datafile separator ","
@@ -12,7 +13,8 @@ set grid lc rgb "#dddddd"
 set border 3
 set tics nomirror
 set key outside right top Left reverse spacing 1.2 samplen 1.6 font ",11"
-results = "bench/results/xeon-2-cores/peers.csv"
+if (!exists("results")) results = "bench/results/xeon-2-cores/peers.csv"
+if (!exists("folder")) folder = "docs/media"
 
 # Settings that a line joins: an engine's, whose names begin or end with this.
 array engines[16] = ["sbfmt", "sbfmt", "sbfmt", "sbfmt", "sbfmt", "Jolt", "Jolt", "MuJoCo", "MuJoCo", "MuJoCo", "MuJoCo", "Bullet", "Bullet", "Bullet", "Rapier", "Rapier"]
@@ -26,7 +28,7 @@ is_drawn(i) = in_series(i) && strlen(strcol(6)) && strlen(strcol(7))
 title_of(i) = engines[i].", ".(kinds[i] eq " of 10 iterations" ? "10 iterations, steps" : kinds[i] eq "1 steps of " ? "1 step, iterations" : kinds[i] eq " steps" ? "steps" : kinds[i])
 
 do for [which in "beam spin pendulum chain"] {
-  set output "docs/media/peers-".which.".svg"
+  set output folder."/peers-".which.".svg"
   present = "" # series that have a point
   do for [i = 1:16] {
     stats results using (is_drawn(i) ? 1 : 0) every ::1 nooutput
