@@ -21,7 +21,7 @@ static bool ends_in(const char *path, const char *ending) {
   return length > tail && strcmp(path + length - tail, ending) == 0;
 }
 
-bool conversion_report_knows(const char *path) {
+bool conversion_report_supports(const char *path) {
   return ends_in(path, ".html") || ends_in(path, ".json");
 }
 
@@ -30,7 +30,7 @@ static uint64_t bytes_of(const char *path) {
   return stat(path, &file) == 0 && file.st_size > 0 ? (uint64_t)file.st_size : 0;
 }
 
-/* --- What came in -------------------------------------------------------------------------------------- */
+/* --- Input -------------------------------------------------------------------------------------- */
 
 static json_t *count(uint32_t n) {
   return json_integer(n);
@@ -70,7 +70,7 @@ static json_t *sources(const conversion_report *of) {
   return list;
 }
 
-/* --- What was mended, guessed, lost -------------------------------------------------------------------- */
+/* --- Repairs, guesses and losses -------------------------------------------------------------------- */
 
 static const char *const repaired[] = {"IMPORT_INSIDE_OUT", "IMPORT_POINTS_JOINED", "IMPORT_POSE",
     "IMPORT_GROUND", "RIG_ALIGNED", "IMPORT_TETRAHEDRA_TURNED", "IMPORT_TETRAHEDRA_FLAT", "RIG_BONE_REHUNG",
@@ -88,7 +88,7 @@ static bool is_among(const char *code, const char *const *list) {
   return false;
 }
 
-/* Messages of a kind; those of none of the three if `codes` is NULL. */
+/* Messages of a kind; if `codes` is NULL, the messages of no kind. */
 static json_t *messages_of(const json_t *messages, const char *const *codes) {
   json_t *list = json_array();
   for (size_t i = 0; i < json_array_size(messages); i++) {
@@ -120,7 +120,7 @@ static json_t *proposed(const sbf_asset *a) {
   return list;
 }
 
-/* --- What came out ------------------------------------------------------------------------------------- */
+/* --- Output ------------------------------------------------------------------------------------- */
 
 static json_t *clips(const sbf_asset *a) {
   json_t *list = json_array();
@@ -175,7 +175,7 @@ json_t *conversion_report_make(const conversion_report *of) {
   return report;
 }
 
-/* --- Into a file --------------------------------------------------------------------------------------- */
+/* --- Writing --------------------------------------------------------------------------------------- */
 
 static bool print_json(const json_t *report, FILE *to) {
   return json_dumpf(report, to, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0 && putc('\n', to) != EOF;

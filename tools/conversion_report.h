@@ -17,7 +17,7 @@ typedef struct conversion_report {
 } conversion_report;
 
 /* Whether the name has a report's extension: .html or .json. */
-bool conversion_report_knows(const char *path);
+bool conversion_report_supports(const char *path);
 
 /* Creates the object; NULL if memory runs out. Draws the pictures if possible. */
 json_t *conversion_report_make(const conversion_report *of);

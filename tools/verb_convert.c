@@ -33,7 +33,7 @@ static stem stem_of(const char *path) {
   return (stem){name, dot && dot != name ? (int)(dot - name) : (int)strlen(name)};
 }
 
-/* Name of the folder that holds a file; empty if the path does not state it. */
+/* Name of the folder of a file; empty if the path does not include it. */
 static stem folder_of(const char *path) {
   const char *end = strrchr(path, '/'), *at = end;
   while (at && at > path && at[-1] != '/') at--;
@@ -197,8 +197,8 @@ static int convert_all(cli_call *call, sbf_convert_options *options) {
   return status;
 }
 
-/* Inputs are read several times: to find their format, to convert, and to note their hash. Opening a pipe
- * again would wait for a writer for ever. False, with a message, if the input is one. */
+/* Inputs are read several times: to find their format, to convert, and to store their hash. Opening a pipe
+ * again would wait for a writer forever. False, with a message, if the input is one. */
 static bool is_no_pipe(const cli_call *call, const char *path) {
   struct stat facts;
   if (!path || stat(path, &facts) != 0 || S_ISREG(facts.st_mode) || S_ISDIR(facts.st_mode)) return true;
@@ -258,7 +258,7 @@ static int run(cli_call *call) {
   if (cli_value(call, "--forward")) options.forward = fronts[front];
   const char *page = cli_value(call, "--report");
   if (page && call->input_count > 1) return cli_wrong(call, "--report takes one input");
-  if (page && !conversion_report_knows(page))
+  if (page && !conversion_report_supports(page))
     return cli_wrong(call, "--report needs a name that ends in .html or .json, not '%s'", page);
   call->messages = page ? json_array() : NULL;
   if (pin_options_read(call, &pins, &options)) status = convert_all(call, &options);

@@ -1,4 +1,4 @@
-/* Minimum stiffness of an object to bear its own weight. */
+/* Minimum stiffness of an object to carry its own weight. */
 #ifndef SBFI_BEARING_MODULUS_H
 #define SBFI_BEARING_MODULUS_H
 

@@ -73,7 +73,7 @@ static sbf_status check_unread(sbfi_packed_reader *reader) {
   return check_gap(reader, end, table->header.file_size);
 }
 
-/* Loads from `bytes`; `*in_place` tells whether the asset points into them. */
+/* Loads from `bytes`; `*in_place` receives whether the asset points into them. */
 /* The header's version defines the known fields, so an asset with an earlier version gets the header's. */
 static sbf_status set_header_version(
     sbf_asset *made, const sbfi_packed_header *header, sbf_diagnostic *error) {

@@ -40,7 +40,7 @@ static uint16_t minor_of(const char *version) {
   return (uint16_t)(minor < UINT16_MAX ? minor : UINT16_MAX);
 }
 
-/* Converts scalars to little-endian; nothing to do on a little-endian machine. */
+/* Converts scalars to little-endian; no effect on a little-endian machine. */
 static bool order_bytes(sbfi_packed_plan *plan) {
   if (sbfi_host_is_little_endian()) return true;
   for (size_t i = 0; i < plan->chunks.count; i++) {

@@ -137,7 +137,7 @@ bool sbfi_packed_kind_is_known(uint32_t kind) {
   return kind && kind_is_in(&sbfi_asset_element, kind);
 }
 
-/* The damage to the magic number tells how the file was damaged. */
+/* The damage to the magic number indicates how the file was damaged. */
 static sbf_status magic_fault(sbf_diagnostic *error, const uint8_t *bytes, size_t size) {
   static const char magic[] = SBFI_PACKED_MAGIC;
   size_t same = 0;

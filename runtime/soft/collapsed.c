@@ -1,4 +1,5 @@
-/* Whether a body has collapsed for good: it encloses almost no volume, or it rests in a false equilibrium.
+/* Detects bodies that have collapsed permanently: it encloses almost no volume, or it rests in a false
+ * equilibrium.
  *
  * In a false equilibrium little moves, yet elastic plus potential energy exceed those of the rest shape at
  * the pins. A body that comes to rest from its rest shape always has less. This test holds for pinned bodies
@@ -20,7 +21,7 @@ static const double COLLAPSED_FRACTION = 0.1;
  * for as long as the caller waits. */
 static const double MOVING_FRACTION = 0.2;
 
-/* A body that loses a fifth of its energy between two checks is still recovering, however slowly it moves. */
+/* A body that loses a fifth of its energy between two checks is still recovering, at any speed. */
 static const double STUCK_FRACTION = 0.8;
 
 /* Bounds of the elastic energy, as fractions of that at a strain of 10 % in all elements. A collapsed body
@@ -253,7 +254,7 @@ static bool is_checked(const sbri_island *island, const sbri_island_state *state
          state->min_ratio < SBRI_CRUSHED_RATIO;
 }
 
-/* Whether known or unknown loads may strain the body as they like. */
+/* Whether loads, known or unknown, may explain any strain. */
 static bool is_forced(const sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   return is_squeezed(c, island) || is_pressed_by_pins(c, island) || sbri_island_is_loaded(c, index);

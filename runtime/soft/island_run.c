@@ -11,7 +11,7 @@
 #include "soft/solvers/soft_contacts.h"
 #include "soft/tear/tear.h"
 
-/* Springs of an island from which on tasks divide its tick. */
+/* Minimum number of springs of an island whose tick is divided among tasks. */
 enum { MIN_DIVIDED_SPRINGS = 20000 };
 
 bool sbri_island_may_divide(const sbri_character *c, uint32_t index) {

@@ -124,7 +124,8 @@ void sbri_momentum_add(sbri_whole_momentum *to, double mass, sbf_vec3 at, sbf_ve
 /* Momentum of the island's free points. */
 sbri_whole_momentum sbri_island_momentum(const sbri_character *c, uint32_t island);
 
-/* Fraction of the velocity relative to drivers, or to the rigid motion, that extra damping keeps per tick. */
+/* Fraction of the velocity relative to drivers, or to the rigid motion, that is left per tick with extra
+ * damping. */
 #define SBRI_DAMPING_KEPT 0.7f
 /* Before a tick: stores the rigid motion of bodies without pins, unless the island is failing. */
 void sbri_island_store_motions(sbri_character *c, uint32_t island);

@@ -1,5 +1,5 @@
-/* Moves the origin of a character's numbers with the character, so that they stay precise however far it
- * walks or its bodies fly. */
+/* Moves the origin of a character's numbers with the character, so that they stay precise at any distance
+ * that it walks or its bodies fly. */
 #include "coupling/ragdoll/ragdoll.h"
 #include "math/vec3.h"
 #include "soft/solvers/scheme.h"

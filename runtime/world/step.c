@@ -1,7 +1,7 @@
 /* Steps a world by one control tick: first the characters' animation, then contacts between characters, then
- * soft-body islands. Each stage is a set of tasks; a few large islands follow one by one, each divided among
- * tasks. No task writes what another task reads, so the result has the same bits for any number of threads
- * and any order. */
+ * soft-body islands. Each stage is a set of tasks; then come a few large islands, one by one, each divided
+ * among tasks. No task writes what another task reads, so the result has the same bits for any number of
+ * threads and any order. */
 #include <string.h>
 
 #include "coupling/body_contact/body_contacts.h"
@@ -28,7 +28,8 @@ static void change_detail_level(void *context, uint32_t index) {
   sbri_contact_surfaces_select_level(world, index);
 }
 
-/* With more large islands than this, each is a task, and threads need not wait for each other in a tick. */
+/* With more large islands than this, each island is one task, because tasks of a divided island wait for each
+ * other. */
 enum { MAX_DIVIDED = 4 };
 
 static bool is_stepped_alone(const sbr_world *world, const sbri_work *work) {
@@ -108,6 +109,6 @@ void sbri_step_tick(sbr_world *world) {
   follow_tears(world);
   sbri_tick_events_gather(world);
   if (world->body_contacts) sbri_pair_reports_publish(world);
-  sbri_tick_sleep_note(world);
+  sbri_tick_report_sleep(world);
   sbri_stage_end(world, SBR_STAGE_EVENTS);
 }

@@ -47,6 +47,6 @@ void sbri_group_run(sbr_world *world, struct sbri_contact_group *group);
 /* Gathers the events of all characters in this tick. */
 void sbri_tick_events_gather(sbr_world *world);
 /* Counts the stepped characters and adds sleep and wake events. */
-void sbri_tick_sleep_note(sbr_world *world);
+void sbri_tick_report_sleep(sbr_world *world);
 
 #endif

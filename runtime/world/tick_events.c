@@ -188,7 +188,7 @@ void sbri_tick_events_gather(sbr_world *world) {
   }
 }
 
-void sbri_tick_sleep_note(sbr_world *world) {
+void sbri_tick_report_sleep(sbr_world *world) {
   world->awake_count = 0;
   for (size_t i = 0; i < world->work.count; i++) {
     const sbri_character *c = &world->characters[world->work.at[i].character];

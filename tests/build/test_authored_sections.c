@@ -1,4 +1,4 @@
-/* Bodies that somebody made along a skin, beside bodies that a part of a skin only touches. */
+/* Bodies authored along a skin, beside bodies that a part of a skin only touches. */
 #include "build/sections/authored_sections.h"
 
 #include "harness.h"

@@ -16,7 +16,7 @@ static void add_sheet(rigged_tubes *to, float height) {
   }
 }
 
-/* Stacked sheets have a winding number above a half even below the lowest, where the margin is. */
+/* Stacked sheets have a winding number above a half even below the lowest one, in the margin. */
 START_TEST(the_margin_stays_empty)
 {
   sbfi_arena arena;

@@ -39,7 +39,7 @@ START_TEST(a_sheet_gets_no_interior_points)
 }
 END_TEST
 
-/* Its springs' equations take hundreds of steps each: of many points, minutes. */
+/* Solving the springs takes hundreds of steps each; with many points, minutes. */
 START_TEST(a_loose_cloud_of_springs_is_not_calibrated)
 {
   sbf_polygon_mesh fine = shape_cube(asset, 16, 1, (sbf_vec3){0, 0, 0});

@@ -54,7 +54,7 @@ START_TEST(a_bone_inside)
 { check_from(10, 0, false); }
 END_TEST
 
-/* However far it is: its cell comes in its turn, also after those of a link inside. */
+/* At any distance: its cell is visited in order, also after those of an inner link. */
 START_TEST(a_bone_far_outside)
 {
   for (double away = 0.5; away < 600; away += 8.25) {

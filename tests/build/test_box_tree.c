@@ -42,7 +42,7 @@ START_TEST(of_equals_the_lowest_number)
   double min = INFINITY;
   ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){0, 1, 1}, box_distance, boxes, &min), 0);
   ck_assert(min == 1);
-  /* What the caller has already is not beaten by an equal. */
+  /* An equal distance does not replace the caller's present result. */
   ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){0, 1, 1}, box_distance, boxes, &min), UINT32_MAX);
   double positions[100];
   for (int i = 0; i < 100; i++) positions[i] = 5;

@@ -111,7 +111,7 @@ START_TEST(a_cube_in_full)
   ck_assert_float_eq_tol(box->mass, 8, 1e-4f);
   ck_assert_float_eq_tol(box->center.y, 1, 1e-5f);
   ck_assert_float_eq_tol(box->inertia.x, 8 * 0.04f / 6, 1e-5f);
-  /* Pins: where the bone's frame has them is where they are. */
+  /* Pins are at the positions given in the bone's frame. */
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
   ck_assert_uint_eq(level->pins.count, 1);
   const sbf_pin_set *pins = &level->pins.at[0];
@@ -194,7 +194,7 @@ START_TEST(sheets_and_free_bodies)
   ck_assert_uint_eq(cloth->positions.count, 25);
   ck_assert_uint_eq(cloth->pins.count, 0);
   ck_assert_int_eq(cloth->model, SBF_ELASTIC_MODEL_SPRINGS);
-  /* What no bone runs through is filled: with some 2000 tetrahedra. */
+  /* A body without bones is filled with about 2000 tetrahedra. */
   ck_assert_int_eq(ball->model, SBF_ELASTIC_MODEL_TETRAHEDRA);
   ck_assert_uint_gt(ball->lattice.tetrahedra.count, 1000);
   ck_assert_uint_lt(ball->lattice.tetrahedra.count, 4000);
@@ -258,7 +258,7 @@ START_TEST(references_to_derived_parts_are_found_again)
   joint.id = "joint";
   joint.body_b = 1;
   built->joints = (sbf_joint_list){&joint, 1};
-  /* An authored rigid body without a bone comes to stand before the hulls. */
+  /* An authored rigid body without a bone is listed before the hulls. */
   sbf_rigid_body rigid[3] = {{0}};
   sbf_rigid_body_init(&rigid[0]);
   rigid[0].id = "mine";

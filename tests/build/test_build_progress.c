@@ -1,4 +1,4 @@
-/* Whoever listens to a build hears of it growing, and can end it at any call. */
+/* A progress callback receives increasing progress, and can cancel the build at any call. */
 #include <stdio.h>
 #include <string.h>
 
@@ -24,8 +24,8 @@ static bool listen(void *user, const char *pass, double done) {
   return l->left < 0 || l->left-- > 0;
 }
 
-/* Ends the build at its first call, the one `step` later, and so on: each time the build says so and leaves
- * nothing. */
+/* Cancels the build at its first call, then at the one `step` later, and so on. Each time the build reports
+ * it and frees everything. */
 static int end_everywhere(const sbf_asset *from, int step, sbf_build_options options) {
   for (int allowed = 0;; allowed += step) {
     listener l = {.left = allowed};
@@ -46,7 +46,7 @@ static int end_everywhere(const sbf_asset *from, int step, sbf_build_options opt
     ck_assert_int_eq(error.code, SBF_CODE_CANCELLED);
     ck_assert_ptr_null(built);
     ck_assert_uint_eq(memory.held_bytes, 0);
-    ck_assert_int_eq(l.calls, allowed + 1); /* told once, it asks no more */
+    ck_assert_int_eq(l.calls, allowed + 1); /* after a cancellation it does not call again */
   }
 }
 
@@ -66,7 +66,7 @@ static sbf_asset *ball(void) {
 START_TEST(springs_on_a_grid)
 {
   sbf_asset *asset = ball();
-  /* 4,600 nodes: each loop over them asks twice. */
+  /* 4,600 nodes: each loop over them calls twice. */
   int calls = end_everywhere(asset, HARNESS_FEW(1, 5),
       (sbf_build_options){.interior = SBF_BUILD_INTERIOR_LATTICE, .cell_m = 0.075, .without_hulls = true});
   ck_assert_int_ge(calls, 24);
@@ -80,7 +80,7 @@ START_TEST(tetrahedra_and_their_levels)
   sbf_build_options options = {
       .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 400, .without_calibration = true};
   ck_assert_int_ge(end_everywhere(asset, HARNESS_FEW(1, 5), options), 30);
-  /* The reference takes long: cancels while it is made, and while it is loaded. */
+  /* The reference is slow: cancels while it is made, and while it is loaded. */
   options.without_calibration = false;
   options.levels = 3;
   ck_assert_int_ge(end_everywhere(asset, HARNESS_FEW(40, 200), options), 60);

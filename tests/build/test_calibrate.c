@@ -43,8 +43,8 @@ static uint32_t grid_point(uint32_t n, uint32_t x, uint32_t y, uint32_t z) {
   return (x * (n + 1) + y) * (n + 1) + z;
 }
 
-/* The beam as a grid of 5 n x n x n cubes of six tetrahedra each, held at x = 0: the lattice that other
- * people's figures are of. */
+/* The beam as a grid of 5 n x n x n cubes of six tetrahedra each, fixed at x = 0: the lattice of published
+ * results. */
 static void grid_level(sbf_level *level, uint32_t n) {
   static const int paths[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}};
   uint32_t points = (5 * n + 1) * (n + 1) * (n + 1), count = 0, pinned_points = (n + 1) * (n + 1);
@@ -91,8 +91,8 @@ static void grid_level(sbf_level *level, uint32_t n) {
   level->pins = (sbf_pin_set_list){pins, 1};
 }
 
-/* Where the middle of the far end goes, and by how much the end turns, under gravity along `g`, and a couple
- * of `couple` N*m about the beam. */
+/* Displacement of the middle of the far end and rotation of the end, under gravity along `g` and a couple of
+ * `couple` N*m about the beam. */
 typedef struct end_motion {
   double y, z, turn;
 } end_motion;
@@ -159,7 +159,7 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
   ck_assert_double_eq_tol(mean, 1e6 * c.factor, 100);
   ck_assert_float_eq(coarse.calibration->factor, (float)c.factor);
   ck_assert_uint_eq(coarse.calibration->reference_elements, 15360);
-  /* Large strains, which it was not fitted to; then across, aslant, and twisted. */
+  /* Large strains, which the fit did not include; then across, diagonal, and twisted. */
   const sbf_vec3 loads[] = {{0, -9.81f, 0}, {0, 0, 9.81f}, {0, -7, 7}, {0, 0, 0}};
   for (int i = 0; i < 4; i++) {
     double couple = i == 3 ? 2 : 0;
@@ -168,7 +168,7 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
     double size = hypot(wanted.y, wanted.z);
     if (i < 3)
       ck_assert_double_lt(hypot(is.y - wanted.y, is.z - wanted.z), 0.02 * size);
-    else /* no modulus corrects that: equally cut cubes, two across, twist by less; our own lattices do not */
+    else /* no modulus corrects that: equally cut cubes, two across, twist less */
       ck_assert_double_eq_tol(is.turn / wanted.turn, 0.73, 0.03);
   }
   sbfi_reference_free(&r);
@@ -206,8 +206,8 @@ static sbfi_d3 push(const sbf_soft_body *body, const sbf_level *level, float x, 
   return sum;
 }
 
-/* The armadillo's left arm, bent as it is, held where it joins the body; fitted to gravity, tried with pushes
- * at the hand. */
+/* The armadillo's left arm in its bent rest pose, fixed where it joins the body. Fitted to gravity, tested
+ * with forces at the hand. */
 START_TEST(an_arm_of_the_armadillo)
 {
   const char *path = harness_shared("armadillo/armadillo_25k.obj");
@@ -252,7 +252,7 @@ START_TEST(an_arm_of_the_armadillo)
       off[calibrated][axis] = sbfi_d3_length(sbfi_d3_sub(is, wanted)) / sbfi_d3_length(wanted);
     }
   }
-  /* A hundred elements or two in the arm, and hardly any in a finger. */
+  /* The arm has one or two hundred elements, and hardly any in a finger. */
   ck_assert_double_lt(c.residual, 0.02);
   ck_assert_double_lt(fabs(c.period_error), 0.03);
   for (int axis = 0; axis < 3; axis++) {
@@ -290,7 +290,7 @@ static void check_moduli(const sbf_level *level) {
   ck_assert_double_eq_tol(sum / whole, 1e6 * (double)level->calibration->factor, 1e3);
 }
 
-/* Stated load by load: gravity along each axis as the greatest residual says, and twists. */
+/* Reported load by load: gravity along each axis, of which the greatest residual counts, and twists. */
 static void check_errors(const sbf_level *level, uint32_t loads) {
   const sbf_calibration *c = level->calibration;
   float max = 0;
@@ -371,13 +371,13 @@ START_TEST(levels_go_from_lattices_to_jiggle)
     if (l > 0) ck_assert_float_lt(level->simulation.cost, levels->at[l - 1].simulation.cost);
     if (l > 0) ck_assert_float_gt(level->simulation.error, levels->at[l - 1].simulation.error);
   }
-  ck_assert_float_eq_tol(levels->at[3].jiggle->frequency, 1.02f, 0.06f); /* of a clamped beam, by the book */
+  ck_assert_float_eq_tol(levels->at[3].jiggle->frequency, 1.02f, 0.06f); /* a clamped beam */
   sbf_asset_free(built);
 }
 END_TEST
 
-/* Nothing holds it: it is bent about itself, and stretched. With moduli fitted to bending alone it stretched
- * by 37 % too much. */
+/* An unpinned body is bent about itself and stretched. With moduli fitted to bending alone, it stretched by
+ * 37 % too much. */
 START_TEST(a_free_body_is_calibrated_too)
 {
   sbf_build_report report;
@@ -397,9 +397,9 @@ START_TEST(a_free_body_is_calibrated_too)
 }
 END_TEST
 
-/* A blade of eight corners, thinner than an element: as its swing has it, its lattice would have to be
- * several times softer. So it is made where there is stiffness to spare, and not where it has to bear itself.
- */
+/* A blade of eight corners, thinner than an element. To match its frequency, its lattice would have to be
+ * several times softer. It is softened so far where it has spare stiffness, but not where it has to carry its
+ * own weight. */
 START_TEST(standing_bodies_keep_the_stiffness_that_their_weight_needs)
 {
   sbf_polygon_mesh blade = shape_cube(asset, 1, 1, (sbf_vec3){0, 0, 0});
@@ -445,8 +445,8 @@ static sbf_soft_body *add_plate(const int order[3]) {
   return body;
 }
 
-/* What does not give at all is off by how far the reference gives: by the most under any load, be it the
- * first or the last that is looked at. */
+/* A lattice that does not yield at all has the reference's own displacement as error: the maximum over all
+ * loads, for any order of the loads. */
 START_TEST(the_error_is_the_greatest_over_all_loads)
 {
   static const int orders[3][3] = {{2, 0, 1}, {0, 2, 1}, {0, 1, 2}};
@@ -466,7 +466,7 @@ START_TEST(the_error_is_the_greatest_over_all_loads)
       if (length > max) max = length, load = l;
     }
   }
-  ck_assert_uint_eq(load, (uint32_t)_i); /* each is tried as the one that matters */
+  ck_assert_uint_eq(load, (uint32_t)_i); /* each is the decisive one in turn */
   sbf_level level;
   ck_assert(sbfi_jiggle_level_make(&level, body, 1, SBF_NONE, asset));
   ck_assert(
@@ -515,7 +515,7 @@ static void soften(sbf_level *level, uint32_t last, float factor) {
   level->lattice.young_modulus = (sbf_f32_list){moduli, count};
 }
 
-/* A crumb of the level that hangs on next to nothing does not decide on the factor for all. */
+/* A small part of the level that is weakly connected does not determine the common factor. */
 START_TEST(a_crumb_does_not_set_the_factor)
 {
   sbf_soft_body *body = add_beam(true);
@@ -536,7 +536,7 @@ START_TEST(a_crumb_does_not_set_the_factor)
 }
 END_TEST
 
-/* No element's modulus is more than doubled, however stiff the same part of the reference. */
+/* No element's modulus is more than doubled, for any stiffness of the same part of the reference. */
 START_TEST(moduli_are_doubled_or_less)
 {
   sbf_soft_body *body = add_beam(true);
@@ -604,7 +604,7 @@ static bool stop(void *user, const char *pass, double done) {
   return done < 0.3;
 }
 
-/* Eight corners say nothing of how a cube bends. */
+/* Eight corners cannot represent how a cube bends. */
 START_TEST(a_surface_of_few_points_is_enough)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 1, 1, (sbf_vec3){0, 0, 0});
@@ -619,7 +619,7 @@ START_TEST(a_surface_of_few_points_is_enough)
   ck_assert_double_lt(report.lattice_calibration.max_factor, 1.3);
   ck_assert_double_lt(report.lattice_calibration.max_residual, 0.1);
   ck_assert_double_lt(report.lattice_calibration.max_period_error, 0.05);
-  /* Its twist is known by how slowly it would swing that way. */
+  /* Its twist shows as a low frequency of that mode. */
   const sbf_f32_list *twists = &built->soft_bodies.at[0].levels.at[0].calibration->twist_errors;
   ck_assert_uint_eq(twists->count, SBFI_TWISTS);
   for (uint32_t k = 0; k < SBFI_TWISTS; k++) ck_assert_float_lt(fabsf(twists->at[k]), 0.3f);

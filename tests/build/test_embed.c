@@ -55,8 +55,8 @@ START_TEST(a_skin_follows_its_weights)
 {
   const sbf_vec3 positions[] = {{0, 0.5f, 0}, {0.5f, 0.5f, 0}, {2.4f, 0.5f, 0}, {0.5f, 0, 0.5f}, {9, 9, 9}};
   const uint32_t counts[] = {1, 2, 2, 3, 1};
-  /* 0: bone 0 alone; 1: bones 0 and 1; 2: bone 3, which has no body, and so bone 2, twice; 3: three bones,
-   * one of them without any body above it; 4: that one alone. */
+  /* 0: bone 0 alone. 1: bones 0 and 1. 2: bone 3, which has no body and so counts as bone 2, twice. 3: three
+   * bones, one of them without a body on it or its parents. 4: that one alone. */
   const uint32_t pinned_by[] = {0, 0, 1, 3, 2, 0, 1, 4, 4};
   const float weights[] = {1, 0.25f, 0.75f, 0.4f, 0.6f, 0.3f, 0.3f, 0.4f, 1};
   sbf_skin skin = {{counts, 5}, {pinned_by, 9}, {weights, 9}};

@@ -126,7 +126,8 @@ END_TEST
 
 START_TEST(long_bodies_keep_small_weights)
 {
-  /* A bar of 1 x 1 x 20: near its axis, far from the centre, the nearest triangle alone would do badly. */
+  /* A bar of 1 x 1 x 20: near its axis, far from the centre, the nearest triangle alone would be
+   * inaccurate. */
   sbf_polygon_mesh mesh = shape_cube(asset, 8, 1, (sbf_vec3){0, 0, 0});
   sbf_vec3 stretched[386];
   for (uint32_t i = 0; i < mesh.positions.count; i++) {
@@ -219,7 +220,7 @@ static sbf_level fork_level(void) {
   return level;
 }
 
-/* Not on points of the whole body: then a tip would stay where it is when its prong bends. */
+/* Points of the whole body would not do: a tip would stay in place when its prong bends. */
 START_TEST(vertices_beside_a_tip_embed_in_their_own_prong)
 {
   sbf_polygon_mesh mesh = shape_cube(asset, 1, 1, (sbf_vec3){0.5f, 0.5f, 0.5f});

@@ -49,7 +49,7 @@ END_TEST
 
 enum { BONE = 4, PINS, CHANGES };
 
-/* What makes the one body another than the other. */
+/* The properties by which one body differs from the other. */
 static void change(sbf_soft_body *body, int what) {
   /* The surface is the asset's, made here. */
   sbf_vec3 *points = (sbf_vec3 *)(uintptr_t)body->surface.positions.at;
@@ -93,7 +93,7 @@ static void count_off(void *user, const sbf_diagnostic *diagnostic) {
   off_count += diagnostic->code == SBF_CODE_LEVEL_OFF;
 }
 
-/* One calibration for all that are equal, one more for the cube that is not. */
+/* One calibration for all equal bodies, one more for the different cube. */
 START_TEST(copies_have_one_calibration)
 {
   enum { BODIES = 12, OTHER = 7 };
@@ -129,7 +129,7 @@ START_TEST(copies_have_one_calibration)
   uint64_t angles = 0;
   for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) angles += report.lattices.dihedrals[k];
   ck_assert_uint_eq(angles, 6 * (uint64_t)tetrahedra);
-  /* Forty tetrahedra stand badly for the cube, which is reported of each of the equal bodies. */
+  /* Forty tetrahedra represent the cube poorly, which is reported for each of the equal bodies. */
   ck_assert_uint_eq(off_count, BODIES - 1);
   sbf_asset_free(built);
 }

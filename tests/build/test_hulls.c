@@ -68,7 +68,7 @@ END_TEST
 
 START_TEST(ball)
 {
-  /* Points on a sphere, as a spiral has them, and some inside. */
+  /* Points on a sphere along a spiral, and some inside. */
   enum { OUTSIDE = 200, ALL = 260 };
   sbf_vec3 points[ALL];
   for (int i = 0; i < ALL; i++) {

@@ -132,12 +132,12 @@ START_TEST(an_empty_interior_makes_no_lattice)
   sbf_polygon_mesh cube = shape_cube(asset, 1, 1, (sbf_vec3){0, 0, 0});
   wind(&m, &cube);
   ck_assert_int_eq(sbfi_lattice_make(&m.lattice, &m.winding, 1e-4, silent, &arena), SBFI_LATTICE_TOO_FINE);
-  stuff(&m, &cube, 1e6); /* nothing is inside of so large a cube's nodes but its own middle */
+  stuff(&m, &cube, 1e6); /* no point but its own middle is inside a cube of this size */
 }
 END_TEST
 
-/* Real surfaces, and the volume that their lattice of 20,000 should have: of closed ones their own, within
- * what curvature takes; of the others about what a person would say. */
+/* Real surfaces, and the expected volume of their lattice of 20,000: for closed ones their own, within the
+ * error of curvature, for the others an estimate by eye. */
 static const struct {
   const char *name;
   double volume, tolerance;

@@ -11,8 +11,8 @@ static double half_at(double x) {
   return 6 - x / 10;
 }
 
-/* Everywhere, to the tip, what is half as deep as the tail is thick is nearly the inner half, and the skin is
- * none of it. */
+/* Along the whole tail, points deeper than half of its local thickness are about its inner half, and no
+ * skin. */
 START_TEST(a_tail_has_a_core_to_its_tip)
 {
   static sbf_vec3 points[POINTS];

@@ -1,4 +1,4 @@
-/* What a bone holds of a lattice does not turn, however coarse the lattice is and in how many pieces. */
+/* The pinned points of a lattice prevent rotation, at any resolution and in any number of pieces. */
 #include "build/lattice/lattice_piece_pins.h"
 
 #include <math.h>
@@ -127,7 +127,8 @@ static sbf_asset *build(uint32_t elements, uint32_t levels, bool calibrate) {
   return built;
 }
 
-/* At 60 the trunk's sections had a point or two, at 1000 the toe that comes off each foot had one. */
+/* At 60 elements the trunk's sections had one or two points, at 1000 the separate toe of each foot had
+ * one. */
 START_TEST(no_section_of_the_lizard_rotates_about_its_pins)
 {
   static const uint32_t elements[] = {20, 60, 1000};

@@ -76,7 +76,7 @@ static sbf_soft_body *add_cube(uint32_t n, bool with_bone) {
   return shape_add_body(asset, "cube", &cube, with_bone);
 }
 
-/* How far the embedded vertices lie from their places. */
+/* Distance of the embedded vertices from their positions. */
 static double misplaced(const sbf_level *level, const sbf_embedding *e, const sbf_vec3_list *positions) {
   double max = 0;
   ck_assert_uint_eq(e->points.count, positions->count);
@@ -173,8 +173,8 @@ START_TEST(pins_on_the_surface_are_transferred)
 }
 END_TEST
 
-/* A vertex in no polygon, seven sizes of the body away: it is reported, and moves with the body as far out as
- * bounded weights reach. */
+/* A vertex in no polygon, seven body sizes away, is reported. It moves with the body as far as bounded
+ * weights allow. */
 START_TEST(a_stray_vertex)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 4, 0.4f, (sbf_vec3){0, 1, 0});
@@ -284,13 +284,13 @@ START_TEST(faults_are_reported)
 }
 END_TEST
 
-/* What becomes of real surfaces at 20,000 tetrahedra: figures that were looked at, so that a change of them
- * is seen. No tetrahedra: a flat sheet. */
+/* Real surfaces at 20,000 tetrahedra: recorded values, so that a change shows. No tetrahedra: a flat
+ * sheet. */
 static const struct {
   const char *name;
   uint32_t tetrahedra, points, thickened;
   double min_deg, max_deg, volume, farthest_cells;
-  bool closed, thin; /* thin: said to be so in parts */
+  bool closed, thin; /* thin: reported in parts */
 } real[] = {
     {"spot/spot.obj", 19841, 4446, 8, 12.3, 152.9, 0.7122, 0.525, true, false},
     {"bunny/bunny_902.obj", 19433, 4473, 67, 12.9, 151.9, 0.8286, 0.690, true, true},
@@ -303,7 +303,7 @@ static const struct {
     {"cloth/plane_30x30.obj", 0, 961, 0, 0, 0, 0, 0, false, false},
 };
 
-/* `build` has validated it: none is inverted, none stands twice, none overlaps its neighbours. */
+/* `build` has validated it: no element is inverted, repeated or overlaps its neighbours. */
 static void check_shape(const sbf_level *level, const sbf_build_report *report) {
   sbf_lattice_measures shape;
   sbf_lattice_measure(

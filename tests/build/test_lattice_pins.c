@@ -75,9 +75,8 @@ static sbf_asset *build(sbf_build_interior interior) {
   return built;
 }
 
-/* Which points of the level are pinned: all of them by the one set, to the clamp, kinematically, where they
- * are.
- */
+/* Expects the pinned points of the level: all by the one set, to the clamp, kinematically, at their
+ * positions. */
 static uint32_t find_pinned(const sbf_level *level, uint8_t *pinned) {
   memset(pinned, 0, level->positions.count);
   ck_assert_uint_eq(level->pins.count, 1);

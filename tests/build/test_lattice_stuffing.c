@@ -14,8 +14,8 @@ static double random_share(void) {
   return (double)(state >> 11) / 9007199254740992.0;
 }
 
-/* Any signs at all, cuts anywhere, many of them just inside or outside of where a node is warped: nothing a
- * surface could do is worse. */
+/* Random signs, cuts anywhere, many of them just inside or outside the distance at which a node is warped:
+ * worse than any surface. */
 static void make_at_random(const sbfi_lattice_grid *grid, sbfi_arena *arena, sbfi_tetrahedra *made) {
   uint8_t *inside = sbfi_arena_allocate(arena, grid->node_count, 1);
   double density = random_share();
@@ -55,8 +55,8 @@ static int compare(const void *a, const void *b) {
   return 0;
 }
 
-/* Every face belongs to one tetrahedron, or to two that look at it from either side: no two diagonals cross,
- * no tetrahedron stands twice. */
+/* Every face belongs to one tetrahedron, or to two on opposite sides: no two diagonals cross, and no
+ * tetrahedron is repeated. */
 static void check_conforming(const sbfi_tetrahedra *made) {
   static const int corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   face *faces = malloc(4 * (size_t)made->count * sizeof *faces + 1);

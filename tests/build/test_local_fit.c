@@ -57,8 +57,8 @@ static held_body beam(void) {
   return hold(cube, 0, 0, 0.95);
 }
 
-/* How far the surface beyond goes when it is pushed with 1 N spread over it: 0 to 2 along an axis, 3 turning
- * about the body's axis, 1 N m per m. */
+/* Displacement of the surface beyond under 1 N spread over it: 0 to 2 along an axis, 3 rotation about the
+ * body's axis, 1 N m per m. */
 static double yields(const held_body *of, const sbf_level *level, int direction) {
   sbfi_level_statics s;
   sbfi_linear_statics linear;
@@ -100,8 +100,8 @@ static sbf_level lattice(const sbf_soft_body *body, uint32_t elements) {
   return level;
 }
 
-/* By how much a lattice of so many elements yields otherwise than one of 16,000 to pushes that it was not
- * fitted to, with one factor for all and with the local fit. */
+/* Relative difference of the displacement of a lattice of so many elements from one of 16,000, under forces
+ * that the fit did not include, with a common factor and with the local fit. */
 typedef struct shares_off {
   double one[4], local[4];
 } shares_off;
@@ -133,8 +133,8 @@ static double worst(const double fractions[4], int from) {
   return max;
 }
 
-/* Bent by its weight alone in the fit; along itself, where it gives a hundredth as much, it stays too soft.
- */
+/* The fit only includes bending by its weight. Along itself, where it yields a hundredth as much, it stays
+ * too soft. */
 START_TEST(a_beam_is_pushed_and_twisted)
 {
   held_body of = beam();
@@ -158,7 +158,8 @@ START_TEST(a_cow_is_pushed_at_its_head)
 }
 END_TEST
 
-/* Ears are thinner than two cells of so coarse a lattice: one factor, found by the whole, misses them. */
+/* Ears are thinner than two cells of such a coarse lattice: a common factor, fitted to the whole, ignores
+ * them. */
 START_TEST(a_bunny_is_pushed_at_its_ears)
 {
   const char *path = harness_shared("bunny/bunny_902.obj");

@@ -52,9 +52,8 @@ START_TEST(each_point_has_a_region_of_its_neighbours)
 }
 END_TEST
 
-/* Stretched by a thousandth along an axis, or sheared: the energy that matter of E and nu = 0 would hold,
- * within what the flat regions along the sides of a slender bar make of it: 16 % more along it, less across.
- */
+/* Stretched by a thousandth along an axis, or sheared: the energy of a continuum of E and nu = 0, within the
+ * error of the flat regions along the sides of a slender bar: 16 % more along it, less across. */
 START_TEST(small_strains_have_the_stress_of_the_modulus)
 {
   const sbf_soft_body *body = &built->soft_bodies.at[0];

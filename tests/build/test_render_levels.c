@@ -74,7 +74,8 @@ static sbf_polygon_mesh mesh_of(const sbf_render_mesh *mesh, const sbf_render_le
 
 static uint32_t state = 1;
 
-/* Farthest of `samples` places a triangle on one mesh from the other: what another measures by. */
+/* Maximum distance of `samples` points per triangle on one mesh from the other, for comparison with other
+ * programs. */
 static double farthest_sample(const sbf_polygon_mesh *from, const sbf_polygon_mesh *to, int samples) {
   sbfi_arena arena;
   sbfi_triangle_tree a, b;
@@ -131,8 +132,8 @@ START_TEST(halves_and_true_errors)
 }
 END_TEST
 
-/* Each corner looks as the full mesh's there does, and no triangle reaches over into another part of the
- * texture: the three corners of one lie in one side's. */
+/* Each corner has the appearance of the full mesh there, and no triangle crosses into another part of the
+ * texture: the three corners of one are in the part of one side. */
 START_TEST(texture_seams_are_kept)
 {
   add_sphere(12);
@@ -178,7 +179,7 @@ START_TEST(materials_and_borders_are_kept)
     const sbf_render_level *level = &mesh->levels.at[l];
     double found[2] = {0, 0};
     ck_assert_uint_eq(level->polygon_materials.count, level->polygon_sizes.count);
-    ck_assert_uint_eq(level->corners.count, 0); /* nothing but points to look by */
+    ck_assert_uint_eq(level->corners.count, 0); /* positions only, no other attributes */
     for (uint32_t t = 0; t < level->polygon_sizes.count; t++) {
       sbf_vec3 p[3];
       for (int k = 0; k < 3; k++) p[k] = mesh->mesh.positions.at[level->polygon_points.at[3 * t + k]];

@@ -38,7 +38,7 @@ static double smoothed(float slope, float authored_slope) {
       old[before.bone_weights[h].bone] += (double)before.bone_weights[h].weight;
     ck_assert_double_eq_tol(weights[0] + weights[1], 1, 1e-5);
     max = fmax(max, fabs(weights[0] - old[0]));
-    /* A smoothed step still goes over from one bone to the other about the joint. */
+    /* A smoothed step still changes from one bone to the other at the joint. */
     if (skin.mesh.positions.at[p].y < 0.5f) ck_assert_double_gt(weights[0], 0.9);
     if (skin.mesh.positions.at[p].y > 1.5f) ck_assert_double_gt(weights[1], 0.9);
   }
@@ -56,7 +56,7 @@ START_TEST(a_gentle_slope_is_unchanged)
 { ck_assert_double_eq(smoothed(0.6f, 0.6f), 0); }
 END_TEST
 
-/* Steeper weights than the skin's own may stretch nothing and yet turn over what its own do not. */
+/* Weights steeper than the skin's own may not stretch elements, and yet invert some that its own do not. */
 START_TEST(flips_are_detected_with_the_authored_weights)
 {
   ck_assert_double_eq(smoothed(0.22f, 0.22f), 0);
@@ -81,7 +81,7 @@ static void reorder_polygons(sbf_polygon_mesh *mesh, sbfi_arena *arena) {
   mesh->polygon_sizes.at = sizes;
 }
 
-/* Weights go from triangle to triangle: on a fine skin sweeps alone leave thousands that tear. */
+/* Weights propagate from triangle to triangle: on a fine skin, sweeps alone leave thousands that tear. */
 START_TEST(a_step_on_a_fine_skin_becomes_a_slope)
 {
   sbfi_arena arena;
@@ -100,7 +100,7 @@ START_TEST(a_step_on_a_fine_skin_becomes_a_slope)
   ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
   ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, NULL, &left, NULL, &arena));
   ck_assert_uint_eq(left, 0);
-  /* As on the coarse tube: the slope is no longer than it has to be. */
+  /* As on the coarse tube: the slope is no longer than necessary. */
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
     double sum = 0;
     for (uint32_t h = skin.bone_weight_begins[p]; h < skin.bone_weight_begins[p + 1]; h++) {
@@ -141,8 +141,8 @@ START_TEST(the_order_of_polygons_changes_nothing)
 }
 END_TEST
 
-/* Points beside a joint that are to keep their weights: on one side the slope goes to the other; on both
- * sides there is no room for it, and they give way. */
+/* Points beside a joint that should retain their weights. On one side, the slope moves to the other side. On
+ * both sides, there is no space for it, and their weights change. */
 START_TEST(fixed_points_keep_their_weights_while_others_can_change)
 {
   for (int both = 0; both < 2; both++) {
@@ -221,7 +221,7 @@ START_TEST(memory_does_not_grow_with_bones_times_points)
 }
 END_TEST
 
-/* As of a damaged file: no weights of float's digits are equal enough about bones so far off. */
+/* As in a damaged file: at this distance single precision cannot tell the weights of bones apart. */
 START_TEST(bones_far_from_the_skin_stop_the_iteration_early)
 {
   sbfi_arena arena;

@@ -87,7 +87,7 @@ START_TEST(one_skin_over_all)
   ck_assert_uint_eq(r.worse_poses, 0);
   ck_assert_uint_gt(r.seam_count, 100);
   ck_assert_uint_eq(notes(SBF_CODE_SECTION_STRETCHED), 0);
-  /* A gentle slope is left alone; a step is what the measure is there to catch. */
+  /* A gentle slope is unchanged. A step is detected. */
   if (_i == 0) ck_assert_double_le(r.lbs_distance, 1e-6);
   if (_i == 2) ck_assert_double_gt(r.lbs_stretch, 2);
   sbf_asset_free(built);
@@ -117,7 +117,7 @@ START_TEST(no_sections_without_the_request)
   ck_assert_str_eq(
       built->derivations.at[0].settings + strlen(built->derivations.at[0].settings) - 13, "sections=none");
   sbf_asset_free(built);
-  /* Nor where somebody made them: their surfaces lie along the skin. */
+  /* Authored bodies also stay whole: their surfaces lie along the skin. */
   sbf_soft_body *body = sbf_asset_allocate(asset, 1, sizeof *body);
   sbf_soft_body_init(body);
   body->id = "own";
@@ -132,7 +132,7 @@ START_TEST(no_sections_without_the_request)
 }
 END_TEST
 
-/* A hat is no section: the limb is cut as it is without it, and nothing of its skin hangs on the hat. */
+/* A hat is no section: the limb is cut as without it, and no part of the limb's skin is bound to the hat. */
 START_TEST(clothes_do_not_cut_the_skin)
 {
   sbf_asset *asset = skinned_limb_make(&smooth);
@@ -159,7 +159,7 @@ END_TEST
 
 START_TEST(a_sliver_joins_and_still_moves)
 {
-  /* What the middle bone holds is pressed together to a hundredth of its length. */
+  /* The part that the middle bone pins is compressed to a hundredth of its length. */
   skinned_limb of = smooth;
   of.bones = 3;
   of.slope = 0;
@@ -205,7 +205,7 @@ START_TEST(recipes_state_elements)
       ck_assert_uint_gt(springs_of(stated, i), 2 * springs_of(usual, i));
     else
       ck_assert_uint_lt(3 * springs_of(stated, i), 2 * springs_of(usual, i));
-    ck_assert_uint_eq(springs_of(asked, i) == springs_of(stated, i), i != 2); /* options go before recipes */
+    ck_assert_uint_eq(springs_of(asked, i) == springs_of(stated, i), i != 2); /* options come first */
     ck_assert_float_eq_tol(cells->soft_bodies.at[i].levels.at[0].cell, 0.09f, 1e-6f);
   }
   char where[256] = "";

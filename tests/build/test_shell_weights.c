@@ -103,7 +103,7 @@ START_TEST(middling_shells_follow_a_clear_lead)
 }
 END_TEST
 
-/* A shell that both sides pull at belongs to the bone between them. */
+/* A shell with equal influence of both sides belongs to the bone between them. */
 START_TEST(shells_across_the_middle_are_of_neither_side)
 {
   tubes_add_ball(tubes, (sbfi_d3){0, 0, 0}, 1, 12);

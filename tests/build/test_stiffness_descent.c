@@ -45,8 +45,8 @@ static float *stated(void) {
   return sbfi_arena_copy(&arena, statics.stiffness, statics.network.spring_count, sizeof(float));
 }
 
-/* Every spring was made otherwise, by up to three: the displacements say by how much, but for what many
- * stiffnesses share. */
+/* Every stiffness was changed by a factor of up to three. The displacements determine it, except where many
+ * stiffnesses have the same effect. */
 START_TEST(springs_are_recovered_from_their_response)
 {
   double left, before;
@@ -65,8 +65,8 @@ START_TEST(springs_are_recovered_from_their_response)
 }
 END_TEST
 
-/* What is wanted is a tenth of a tenth: no spring becomes stiffer than sixteen times, no point is held by
- * more than four times what the most tightly held one was. */
+/* The target is a tenth of a tenth: no spring becomes stiffer than sixteen times, and no point has more than
+ * four times the stiffness of the stiffest one before. */
 START_TEST(bounds_are_respected)
 {
   double left, max = 0;
@@ -126,7 +126,7 @@ START_TEST(sections_of_a_lizard_deform_as_their_material)
     ck_assert_float_gt(level->simulation.error, 0);
     bool is_near = level->calibration->residual < 0.3f;
     near += is_near;
-    /* All mass is at the surface, which moves most: they swing that much too slowly, and no more. */
+    /* All mass is at the surface, which moves most: they swing too slowly by that amount only. */
     ck_assert_float_gt(level->calibration->period_error, 0);
     ck_assert_float_lt(level->calibration->period_error, is_near ? 0.13f : 0.3f);
     ck_assert_float_lt(level->calibration->residual, 1.1f); /* hands, thin as they are */

@@ -63,7 +63,7 @@ START_TEST(far_from_all_corners)
   double far = distance_between(&flat, &roof);
   ck_assert_double_ge(far, 0.4 * (1 - 1e-6));
   ck_assert_double_le(far, 0.42);
-  /* From below alone: the flat sheet's middle is nearer to the slopes than the ridge is to the sheet. */
+  /* From below only: the flat sheet's middle is nearer to the slopes than the ridge is to the sheet. */
   static const uint32_t half_sizes[] = {3}, half_points[] = {0, 2, 3};
   sbf_polygon_mesh half = flat;
   half.polygon_sizes = (sbf_u32_list){half_sizes, 1};

@@ -106,8 +106,8 @@ START_TEST(few_searches_find_as_much_as_many)
 }
 END_TEST
 
-/* Of points outside too, by looking at all: none is nearer, and of those hardly farther none has smaller
- * weights. */
+/* Of points outside too, compared with a search of all: none is nearer, and none at almost the same distance
+ * has smaller weights. */
 START_TEST(points_outside_have_the_smallest_weights)
 {
   for (int i = 0; i < 300; i++) {

@@ -87,7 +87,7 @@ START_TEST(rays_hit_the_first_shape)
     if (x > y * 1.001f && x > z * 1.001f) ck_assert(a.x == b.x && b.x == c.x && a.x * p.x > 0);
     if (y > x * 1.001f && y > z * 1.001f) ck_assert(a.y == b.y && b.y == c.y && a.y * p.y > 0);
   }
-  /* From outside the nearer of the two faces, and none when it looks away. */
+  /* From outside the nearer of the two faces; none if the ray points away. */
   uint32_t found =
       sbfi_triangle_tree_pierced(&tree, (sbf_vec3){5, 0.1f, 0.2f}, (sbf_vec3){4, 0.1f, 0.2f}, INFINITY);
   ck_assert_float_eq(tree.positions[tree.triangles[found].points[0]].x, 1);

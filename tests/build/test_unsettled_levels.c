@@ -1,4 +1,4 @@
-/* A lattice that no static solution stands behind states no error, and the build says so. */
+/* A lattice without a static solution states no error, and the build reports it. */
 #include <math.h>
 #include <string.h>
 
@@ -56,7 +56,7 @@ static sbf_asset *build_bar(const sbf_vec3 *positions, uint32_t count, uint32_t 
   return built;
 }
 
-/* Nothing is calibrated against what turns. */
+/* A body that can rotate freely is not calibrated. */
 START_TEST(a_body_pinned_at_one_point_causes_a_warning)
 {
   const sbf_vec3 position = {0, 0.2f, 0.2f};
@@ -106,7 +106,7 @@ START_TEST(a_coarser_level_is_left_out)
 }
 END_TEST
 
-/* Held at four corners of its end: along itself a coarse one gives by 30 % otherwise. */
+/* Pinned at four corners of its end: a coarse one would otherwise yield by 30 % along its axis. */
 static const sbf_vec3 corners[] = {{0, -0.2f, -0.2f}, {0, 0.2f, -0.2f}, {0, -0.2f, 0.2f}, {0, 0.2f, 0.2f}};
 
 START_TEST(the_finest_level_is_kept_with_a_warning)

@@ -68,7 +68,7 @@ START_TEST(attributes_that_split_a_point)
 }
 END_TEST
 
-/* Where the other bone begins to hold: one ring of the tube belongs to both. */
+/* Where the influence of the other bone begins: one ring of the tube belongs to both. */
 START_TEST(bones_split_one_ring)
 {
   sbf_asset *limb = skinned_limb_make(&(skinned_limb){

@@ -86,7 +86,8 @@ START_TEST(an_open_tube_is_as_good)
 }
 END_TEST
 
-/* Every triangle with corners of its own, in one place: the same weights; drawn in from its sides: nearly. */
+/* Every triangle has corners of its own at shared positions: the weights are the same. Moved slightly
+ * inwards: almost the same. */
 START_TEST(triangles_may_be_separate)
 {
   make_arm(60, false);
@@ -149,8 +150,8 @@ START_TEST(distance_runs_through_the_body)
 }
 END_TEST
 
-/* Two legs nearer to each other than a cell. Names tell left from right, and nothing of one holds the other.
- */
+/* Two legs nearer to each other than a cell. Names distinguish left from right, and no bone of one influences
+ * the other. */
 START_TEST(legs_close_together)
 {
   const sbfi_d3 left[] = {{0.105, 1, 0}, {0.105, 0, 0}}, right[] = {{-0.105, 1, 0}, {-0.105, 0, 0}};
@@ -212,7 +213,7 @@ START_TEST(small_shells_are_rigid)
 }
 END_TEST
 
-/* A button whose lowest point is in the place of one of the sleeve's: a shell of its own, and rigid. The
+/* A button whose lowest point is at the position of one of the sleeve's: a shell of its own, and rigid. The
  * sleeve's halves share edges, not points: one shell. */
 START_TEST(touching_shells_stay_separate)
 {
@@ -323,7 +324,7 @@ START_TEST(skin_around_a_joint_follows_its_limb)
 }
 END_TEST
 
-/* A bone along the middle of another is nearest to nothing. */
+/* A bone along the middle of another is nearest to no point. */
 START_TEST(bones_deep_in_a_body_are_idle)
 {
   make_arm(60, false);
@@ -361,7 +362,7 @@ START_TEST(frames_and_controls_get_no_weights)
   tubes->bone_count = 0;
   uint32_t frame = tubes_add_bone(tubes, "body", SBF_NONE, (sbfi_d3){0.5, 0, 0}, (sbfi_d3){0.5, 1, 0});
   tubes->bone_count = 4;
-  /* An aim in front of the arm, a handle at its last joint, and a handle with a telling name. */
+  /* A target in front of the arm, a handle at its last joint, and a handle with a recognizable name. */
   uint32_t aim =
       tubes_add_bone(tubes, "elbow.aim", (int32_t)frame, (sbfi_d3){1.5, 0, 2}, (sbfi_d3){1.5, 0, 3});
   uint32_t pull = tubes_add_bone(tubes, "grip", (int32_t)frame, (sbfi_d3){2, 0, 0}, (sbfi_d3){2, 1, 0});
@@ -377,7 +378,7 @@ START_TEST(frames_and_controls_get_no_weights)
 }
 END_TEST
 
-/* The mark of an end holds nothing, and the bone before it runs to it. */
+/* An end marker has no influence, and the bone before it extends to it. */
 START_TEST(ends_of_bones_get_no_weights)
 {
   make_arm(60, false);
@@ -390,7 +391,7 @@ START_TEST(ends_of_bones_get_no_weights)
 }
 END_TEST
 
-/* Handles that an animator pulls a hand by, in a tree of their own: one lies in the place of a joint. */
+/* Handles with which an animator moves a hand, in a tree of their own: one is at the position of a joint. */
 START_TEST(trees_of_handles_get_no_weights)
 {
   make_arm(60, false);

@@ -61,7 +61,7 @@ START_TEST(turned_patches_are_found)
 }
 END_TEST
 
-/* A cube without one side: what its caps are must not be seen in the number, which at the middle is 5/6. */
+/* A cube without one side: its caps must not affect the number, which is 5/6 at the middle. */
 START_TEST(an_open_cube)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 2, 2, (sbf_vec3){0, 0, 0});
@@ -136,7 +136,7 @@ static double random_side(uint32_t *state) {
   return (*state >> 8) / 16777216.0;
 }
 
-/* Long triangles everywhere: what a query costs does not grow with their number. */
+/* Long triangles everywhere: the cost of a query does not grow with their number. */
 START_TEST(open_soups_of_long_triangles)
 {
   enum { MAX = 4096, QUERIES = 200 };

@@ -1,4 +1,4 @@
-"""Bundles of joints: each case is an arm that one joint holds to a common base, or to the arm before it.
+"""Bundles of joints: in each case a joint connects an arm to a common base, or to the arm before it.
 
 Frames are turned by odd angles, so that an axis, a sign or an order that is wrong shows. Every free motion is driven, and all
 that are limited keep within their bounds at rest."""

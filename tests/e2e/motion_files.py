@@ -1,4 +1,4 @@
-"""What `sbfmt run` writes about a motion, read by other means than those that wrote it: point caches, pose files,
+"""Reads what `sbfmt run` writes about a motion, independently of the writer: point caches, pose files,
 and the bundle's own rest pose."""
 
 import csv
@@ -64,7 +64,7 @@ class Section:
                               [max(p[k] for p in self.rest) for k in range(3)])
 
     def departure(self, cache, sample, pose):
-        """The farthest that a point lies from where the bone alone would carry it, as a share of the size."""
+        """Maximum distance of a point from its position by the bone alone, as a fraction of the size."""
         place = pose[self.bone]
         farthest = 0
         for i in self.used:
@@ -85,7 +85,7 @@ def read_sections(path):
 
 
 def slip_of(section, cache, height=0.004, shortest=8):
-    """The farthest that a foot's sole moves over the flat ground while it stands: of every run of at least `shortest`
+    """Maximum displacement of a foot's sole over the flat ground in stance: of every run of at least `shortest`
     samples in which the mean of the sole's points is low, less a margin at both ends for coming down and lifting."""
     lowest = min(section.rest[i][1] for i in section.used)
     sole = [i for i in section.used if section.rest[i][1] < lowest + 0.02 * section.size]
@@ -106,7 +106,7 @@ def slip_of(section, cache, height=0.004, shortest=8):
 
 
 def steps_of(bone, poses, lift):
-    """How often a bone's head rose above its place on the first frame by at least `lift` and came down again."""
+    """Number of times that a bone's head rose above its first position by at least `lift` and came down again."""
     ground, up, count = poses[0][bone][1], False, 0
     for frame in sorted(poses):
         height = poses[frame][bone][1] - ground

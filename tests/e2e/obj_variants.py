@@ -135,7 +135,7 @@ def doubled(obj, key=None):
 
 
 def merged(obj):
-    """Points in one place become one."""
+    """Merges points at equal positions."""
     new, found, position = obj.copy(), {}, []
     new.points, new.origins = [], []
     for point, origin in zip(obj.points, obj.origins):
@@ -164,7 +164,7 @@ def size_of(obj):
 
 
 def jiggled(obj, fraction=1 / 3, by=0.01, seed=1):
-    """That share of the points moved by so much of the longest side."""
+    """Moves a fraction of the points by a fraction of the longest edge."""
     new, chance, size = obj.copy(), random.Random(seed), size_of(obj)
     for i, p in enumerate(obj.points):
         way = [chance.gauss(0, 1) for _ in range(3)]
@@ -204,7 +204,7 @@ def subdivided(obj):
 
 
 def simplified(obj, fraction=0.5):
-    """Shortest sides collapse to their middles until that share of the points is left."""
+    """Collapses the shortest edges to their middles until a fraction of the points is left."""
     tri = triangulated(obj)
     count = len({p for _, _, c in tri.faces for p, _, _ in c})
     root, points, origins = list(range(len(tri.points))), list(tri.points), [list(o) for o in tri.origins]

@@ -148,7 +148,7 @@ def mirror_twins(original):
 
 
 def equal_fraction(original, variant, path, within=1e-3):
-    """The share of the variant's points whose weights are those of one of the points they came from. A mirrored
+    """The fraction of the variant's points that have the weights of one of their original points. A mirrored
     symmetric mesh is the same mesh with its sides exchanged: then points may be their mirror images as well, all of
     them."""
     found, twins = weights_by_vertex(path), mirror_twins(original)

@@ -63,7 +63,7 @@ class Scene:
         return self.node(name, parent, physics, mesh=0, translation=list(at), rotation=list(rotation), scale=list(scale))
 
     def joint(self, body, other, limits=(), drives=(), at=(0, 0, 0), other_at=(0, 0, 0), **members):
-        """Joins two nodes at places in each; `other` None is the world."""
+        """Joins two nodes at a position in each; `other` None is the world."""
         frame = self.node("frame b", other, translation=list(other_at))
         self.joints.append({"limits": list(limits), "drives": list(drives)})
         return self.node("frame a", body, {"joint": {"connectedNode": frame, "joint": len(self.joints) - 1, **members}},

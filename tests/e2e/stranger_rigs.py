@@ -5,7 +5,7 @@ import math
 from bundle_file import apply, inverse, matrix_of, product
 from skinned_glb import SkinnedGlb
 
-# Bone, parent, head in metres; a person who stands on y = 0, looks along +Z and holds the arms out.
+# Bone, parent, head in metres; a person who stands on y = 0, faces +Z and has the arms out.
 PERSON = [
     ("hips", None, (0, 0.95, 0)), ("spine", "hips", (0, 1.10, 0)), ("chest", "spine", (0, 1.28, 0)),
     ("head", "chest", (0, 1.55, 0)),

@@ -308,7 +308,7 @@ class Calls(ProgramTest):
 
 
 class DamagedBundles(ProgramTest):
-    """A bundle cut short anywhere, or with a byte changed, is refused or read whole: nothing in between."""
+    """A bundle cut short anywhere, or with a byte changed, is either refused or read completely."""
 
     @classmethod
     def setUpClass(cls):

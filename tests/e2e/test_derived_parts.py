@@ -33,7 +33,7 @@ class Derived(ProgramTest):
         self.assertEqual(stated_hash(self.file), source_hash(self.file))
 
     def test_a_build_needs_only_the_parts_it_reads(self):
-        # Slots for materials are no part of it, so what names them has to go for the rest to be a file.
+        # Material slots are no part of it, so references to them are removed to make the rest valid.
         text = re.sub(r" *<polygon_materials>[^<]*</polygon_materials>\n", "", source_text(self.file))
         source, built = write_bytes(self.path("source.sbf"), text.encode()), self.path("built.sbf")
         self.good("unpack", source, "-o", self.path("again.sbf"))

@@ -35,7 +35,7 @@ def subdivided(folder, name, path, times):
 
 class Drop(ProgramTest):
     def drop(self, path, *options):
-        """The report, the lowest place of a surface at any frame, and the greatest speed of one in the last frame."""
+        """The report, the minimum height of a surface at any frame, and the maximum speed of one in the last frame."""
         out = self.path("drop.pc2")
         report = self.json_of("run", path, *DROP, "--cache", out, "--of", "surface", *options)
         cache = PointCache(out)
@@ -103,7 +103,7 @@ class Subdivision(ProgramTest):
         out = subdivided(self.folder, "fine.obj", cube, 1)
         points, parts = subdivide().read_obj(out)
         self.assertEqual(parts[0][0], "o Cube")
-        # 8 corners, 13 sides, 5 quads' own; each quad gives 4, each triangle 4.
+        # Points of 8 corners, 13 edges and 5 quads; each quad and each triangle becomes 4 polygons.
         self.assertEqual((len(points), len(parts[0][1])), (8 + 13 + 5, 28))
         self.assertEqual(min(points), (0, 0, 0))
         self.assertEqual(max(points), (1, 1, 1))

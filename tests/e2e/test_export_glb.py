@@ -36,7 +36,7 @@ def rest_points(bundle):
 
 class Weights(ProgramTest):
     def test_weights_of_zero(self):
-        """A point whose weights are all 0 goes with the root's own joint; bones of weight 0 are not named, and no set sums to less than 1."""
+        """A point whose weights are all 0 follows the root's own joint. Bones of weight 0 are not listed, and every set sums to 1."""
         mesh = ("<polygon_mesh target=\"rendering\"><positions>0 0 0 1 0 0 0 1 0</positions><polygon_sizes>3</polygon_sizes>"
                 "<polygon_points>0 1 2</polygon_points></polygon_mesh>")
         skin = ("<skin><influence_counts>2 2 1</influence_counts><bones>0 1 0 1 1</bones><weights>0 0.5 0 0 0.25</weights></skin>")
@@ -133,7 +133,7 @@ class Motion(ProgramTest):
             self.assert_plays(shown["meshes"], rest, now)
 
     def test_squash_is_exported_as_targets(self):
-        """Pressed as it lands: in the targets, for the joints alone leave it as broad as it was."""
+        """Compressed at landing by morph targets, because joints alone do not change its width."""
         out, rest, now = self.moved("pudding")
         glb = Glb(out)
         motion, = (a for a in glb.json["animations"] if any(c["target"]["path"] == "weights" for c in a["channels"]))
@@ -145,7 +145,7 @@ class Motion(ProgramTest):
         self.assertAlmostEqual(widths[3], widths[1], delta=NEAR_M)
 
     def test_normals_of_targets_rotate_with_the_soft_body(self):
-        """A normal keeps its angle to the faces around it that share it: triangles here, so the sums of their area vectors tell."""
+        """A normal keeps its angle to the faces around it that share it: triangles here, so it is compared with the sum of their area vectors."""
         glb, sums, rows_of, turned = Glb(self.moved("pup")[0]), ({}, {}), [], 0
         for node, primitive in glb.primitives():
             rest, normals = (glb.accessor(primitive["attributes"][name]) for name in ("POSITION", "NORMAL"))

@@ -42,7 +42,7 @@ class Joints(ProgramTest):
         return self.path("out" + ending)
 
     def runtime_pose(self, path):
-        """Each bone's place and rotation (x, y, z, w) after its drive has come to rest."""
+        """Each bone's position and rotation (x, y, z, w) after its drive has come to rest."""
         self.good("run", path, "--seconds", SECONDS, "--pose", self.path("pose.csv"))
         last = {}
         with open(self.path("pose.csv"), encoding="utf-8") as stream:
@@ -55,7 +55,7 @@ class Joints(ProgramTest):
         return play_files.node("pose_mujoco.mjs", path, self.path("poses.json"))[0]
 
     def compare_poses(self, which, value_of):
-        """`value_of` is what a joint of the MJCF file is set to."""
+        """`value_of` returns the value to which a joint of the MJCF file is set."""
         path, _ = self.bundle(which)
         exported = self.exported(path, ".mjcf")
         joints = list(ElementTree.fromstring(read_text(exported)).iter("joint"))

@@ -39,7 +39,7 @@ class Generated(ProgramTest):
         return os.path.join(self.made("man"), f"sbfmt-{verb}.1")
 
     def completed(self, *words):
-        """What bash offers for the last of the words."""
+        """The completions of bash for the last word."""
         quoted = " ".join(f"'{word}'" for word in words)
         script = (f". {self.made('bash')}/sbfmt\nCOMP_WORDS=({quoted})\nCOMP_CWORD={len(words) - 1}\n_sbfmt\n"
                   'printf "%s\\n" "${COMPREPLY[@]}"\n')
@@ -57,7 +57,7 @@ class Generated(ProgramTest):
                 self.assertIn(".B " + option.replace("-", "\\-"), read_text(self.page(verb)))
 
     def test_help_is_whole_and_fits_a_terminal(self):
-        """No text is cut off, none is wider than 100 columns but what cannot be broken."""
+        """No text is cut off, and only unbreakable words are wider than 100 columns."""
         for verb in verbs():
             text = call(verb, "--help").out
             for line in text.split("\n\n", 2)[2].splitlines():

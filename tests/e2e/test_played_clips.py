@@ -37,7 +37,7 @@ class Played(ProgramTest):
 
     def check(self, bundle_path, name, seconds, worst, usual):
         """The skin beside linear blend skinning of the keys: how far off any vertex may be, and the mean of all, in
-        parts of the body: what is soft lags, and the sections' blends are smoother than the skin's weights."""
+        parts of the body: soft parts lag, and the sections' blends are smoother than the skin's weights."""
         bundle, cache = Bundle(bundle_path), self.path("skin.pc2")
         clip, = [c for c in bundle.clips if c.get("name") == name]
         tracks, duration = bundle.tracks(clip), float(clip.get("duration"))

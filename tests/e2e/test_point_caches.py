@@ -1,4 +1,4 @@
-"""Point caches: both forms hold the same places, and Blender's Mesh Cache plays both."""
+"""Point caches: both forms have the same positions, and Blender's Mesh Cache plays both."""
 
 import math
 import os

@@ -47,7 +47,7 @@ class PosedInputs(ProgramTest):
                                delta=1e-3)  # the shape is the input's
 
     def test_clips_of_turned_arms_play_as_before(self):
-        """A clip states whole rotations, so its poses are those of the rig as it was."""
+        """A clip has complete rotations, so its poses are those of the original rig."""
         name, turn = "examples/yeti/yeti.glb", (0, 0, math.sin(0.2), math.cos(0.2))
         add_clip(posed_inputs.path_of(name), self.path("wave.glb"), "wave", {"upper_arm.L": turn, "upper_arm.R": turn}, 0.6)
         original = self.pose(name, path=self.path("wave.glb"))[0]

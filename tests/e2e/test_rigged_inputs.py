@@ -120,7 +120,7 @@ class RiggedInputs(ProgramTest):
         self.assertNotIn("RIG_OBJECT_APART", printed)
 
     def test_bones_of_a_rig_with_another_mesh(self):
-        """They lie inside the input, and yet may be another character's: that is told; at an odd scale it is refused."""
+        """The bones are inside the input but may be another character's: this is reported. At a wrong scale they are refused."""
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
         points, triangles = tube(0, 2.6, 0.9)
@@ -232,7 +232,7 @@ class RiggedInputs(ProgramTest):
         self.assertIn("16 from the names of objects or bones, 8 computed from the bones", printed)
 
     def test_unwelded_polygons_become_one_body(self):
-        """As exporters write flat-shaded meshes. The two sides of a sheet, which also meet, stay separate."""
+        """As exporters write flat-shaded meshes. The two sides of a sheet, which also touch, stay separate."""
         write_bones(self.path("arm.bvh"))
         points, triangles = box((1.2, -0.2, -0.2), (1.8, 0.2, 0.2))
         sheet = [(0.2, 0.3, 0), (0.8, 0.3, 0), (0.5, 0.3, 0.4)]
@@ -246,7 +246,7 @@ class RiggedInputs(ProgramTest):
         self.assertIn("42 points of the file became 14: polygons of an object that meet along an edge", printed)
 
     def test_points_far_from_all_others(self):
-        """One that no polygon uses is left out, and one of a polygon is named; neither takes forever."""
+        """A point outside all polygons is left out, and one in a polygon is reported; both quickly."""
         column = Column()
         rig, points = column.glb.write(self.path("rig.glb")), obj_of(column.objects()).points
         wanted = column.wanted["body"] + column.wanted["hat"]
@@ -375,7 +375,7 @@ class ArmOfAnotherFile(ProgramTest):
         self.assertIn("'far'", notes[0]["message"])
 
     def test_another_character_side_by_side(self):
-        """It is nearer to the bones than a bracelet may be, and yet holds none of them."""
+        """It is nearer to the bones than the limit for a bracelet, but contains none of them."""
         write_arm(self.path("arm.obj"))
         write_bones(self.path("arm.bvh"))
         arm = variants.read(self.path("arm.obj"))

@@ -64,7 +64,7 @@ def shapes_of(obj):
 
 
 def rig_of_bones(points, faces, joints, hold):
-    """A skin on bones below one root, each at its place; `hold` has a weight a bone for each point."""
+    """A skin on bones below one root, each at its position; `hold` has one weight per bone for each point."""
     file = SkinnedGlb()
     root = file.node("Root")
     worlds = [matrix_of(position) for position in joints.values()]
@@ -170,7 +170,7 @@ class ByPlace(ProgramTest):
 
 
 class InSavedPose(ProgramTest):
-    """A rig whose file was saved in the middle of a movement, and an OBJ that a program wrote of it as it stands there."""
+    """A rig whose file was saved in the middle of a movement, and an OBJ of that pose by another program."""
 
     @classmethod
     def setUpClass(cls):
@@ -182,7 +182,7 @@ class InSavedPose(ProgramTest):
         cls.motions = save_in_a_pose(CALF, cls.rig, turns)
 
     def check(self, obj, within):
-        """Weights, places and normals are those of the skin as it was bound."""
+        """Weights, positions and normals are those of the skin's bind pose."""
         self.assertGreaterEqual(equal_fraction(self.calf, obj, self.path("out.sbf")), 0.999)
         size = variants.size_of(self.calf.obj)
         for vertex, (_, position) in weights_by_vertex(self.path("out.sbf")).items():
@@ -419,7 +419,7 @@ class ByNearness(ProgramTest):
         self.assertEqual(found[0], found[1])
 
     def test_a_symmetric_mesh_is_not_its_mirror_image(self):
-        """Half of its points were moved: those that are left fit both ways, in any order of its points."""
+        """Half of its points were moved: the others fit in both directions, in any order of its points."""
         chance, points, faces = random.Random(1), [], []
         for i in range(30):
             row = [0.3 * chance.random() for _ in range(9)]
@@ -563,7 +563,7 @@ class FromBones(ProgramTest):
                 self.assertTrue(0.9 <= sizes[0] / sizes[1] < 1.6, sizes)
 
     def test_bones_without_a_unit_take_the_size_of_the_input(self):
-        """A BVH states no unit: it is scaled, upright, and --unit of the input holds."""
+        """A BVH states no unit: it is scaled, upright, and --unit applies to the input."""
         for name, scale, unit, reported in (("twice as large", 1, "2", "scaled by 2,"), ("an odd scale", 4.95, None, "scaled by"),
                                         ("an odd scale, small", 0.0731, "1", "scaled by")):
             with self.subTest(name):
@@ -628,7 +628,7 @@ class FromBones(ProgramTest):
         self.assertTrue(report["pictures"] or report["drawing_failed"])
 
     def test_posed_bones_get_advice_to_export_at_rest(self):
-        """Exporters write bones without a mesh as they stand at the moment."""
+        """Exporters write bones without a mesh in their present pose."""
         add_clip(CALF, self.path("jump.glb"), "Jump", {"head": (0, 0, math.sin(0.2), math.cos(0.2))}, 1)
         posed_inputs.write_bones(self.path("jump.glb"), self.path("bones.glb"))
         variants.write(variants.Obj([(0, 0, 0), (0, 3, 0), (0, 0, 0.01)], [], [], [("pole", None, [(i, None, None) for i in range(3)])]),
@@ -662,7 +662,7 @@ class FromBones(ProgramTest):
         self.assert_empty_folder(but=["in.obj"])
 
     def test_forward_sets_the_facing_direction(self):
-        """The calf looks along +Z: told that its tail is ahead, it is laid the other way round."""
+        """The calf faces +Z. With --forward along its tail, it is rotated by half a turn."""
         for forward, sign in ("z", 1), ("-z", -1):
             self.good(*self.convert(self.calf.obj, *SOURCE_PARTS, "--forward", forward))
             found = weights_by_vertex(self.path("out.sbf"))

@@ -56,7 +56,7 @@ class Run(ProgramTest):
         self.assertNotIn("{", text)
 
     def test_a_ragdoll_is_drawn_too_and_needs_rigid_bodies(self):
-        """What --ragdoll asks for belongs to every verb that moves a character, and to its recording."""
+        """The options of --ragdoll apply to every verb that moves a character, and to its recording."""
         tape = self.path("fall.sbrec")
         fallen = self.run_json("--ragdoll", "--record", tape)
         self.assertEqual(self.run_json("--replay", tape)["state_hash"], fallen["state_hash"])

@@ -179,7 +179,7 @@ class EveryFile(ProgramTest):
                 continue
             with self.subTest(path):
                 out = self.path("out.sbfz")
-                # with the springs that take no time: what lattices cost and give is not this test's matter
+                # with springs, which are fast to build: lattices have tests of their own
                 self.good("convert", shared(path), "--springs", "centroid", "--no-calibration", "-o", out)
                 report = self.json_of("validate", out, status=call("validate", out).status)
                 self.assertEqual({m["code"] for m in report["messages"] if m["severity"] == "error"}, set())

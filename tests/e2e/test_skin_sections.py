@@ -1,5 +1,5 @@
 """A character that is one skinned mesh: all of it cut into sections, built again, walked, and left to its bones where that is
-asked for (test_softness.py has what is soft by default). Real ones where they are at hand."""
+asked for (test_softness.py tests which are soft by default). Uses real characters if present."""
 
 import json
 import os
@@ -15,7 +15,7 @@ CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
 CHARACTERS = ((("fox", "fox.glb"), 15, True), (("greenman", "greenman.glb"), 6, True), (("spider", "spider.glb"), 20, True),
               (("snake", "snake.glb"), 10, False), (("kenney-fbx", "kenney_character.fbx"), 20, True),
               (("walk-dae", "walk.dae"), 18, True))
-# What a calf may wear: the bone, and two corners of each box, where the calf stands
+# Accessories of a calf: the bone, and two corners of each box, in the calf's rest position
 WORN = {"hat": ("head", ((-0.06, 0.97, 0.45), (0.06, 1.07, 0.57))),
         "eyes": ("head", ((-0.10, 0.84, 0.54), (-0.07, 0.87, 0.57)), ((0.07, 0.84, 0.54), (0.10, 0.87, 0.57))),
         "belly": ("spine", ((-0.14, 0.34, -0.12), (0.14, 0.52, 0.12))),

@@ -12,7 +12,7 @@ from textured_box import png_of
 
 class StrangerRigs(ProgramTest):
     def converted(self, *placed, options=()):
-        """The messages of the conversion of a file with people at these places."""
+        """The messages of the conversion of a file with people at these positions."""
         people(self.path("in.glb"), *placed)
         return self.good("convert", self.path("in.glb"), *SOURCE_PARTS, *options, "-o", self.path("out.sbf")).err
 
@@ -52,7 +52,7 @@ class StrangerRigs(ProgramTest):
         self.assertNotIn("[RIG_LIES]", self.converted(turned("y", 180)))
 
     def source_parts(self, name):
-        """What becomes of a file beside the title and the sources, which have its name."""
+        """The converted file without the title and the sources, which include its name."""
         self.good("convert", self.path(name), *SOURCE_PARTS, "-o", self.path("out.sbf"))
         text = read_text(self.path("out.sbf"))
         return re.sub(r'<source [^>]*>| title="[^"]*"', "", text)

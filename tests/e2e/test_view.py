@@ -13,7 +13,7 @@ from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes,
 from test_render_files import read_png
 
 SMALL = ("--size", "200x150")
-# What drivers and X hold on to when they end is theirs.
+# Memory that drivers and X still hold at exit is no leak of the program.
 QUIET = {"SDL_VIDEODRIVER": "x11", "LSAN_OPTIONS": "detect_leaks=0"}
 
 
@@ -95,7 +95,7 @@ class View(ProgramTest):
         self.assertTrue(report["paused"])
         first = self.picture("first.png")
         self.assertEqual(first[:2], (200, 150))
-        # What shadows are drawn on has grown: some edges are smoothed otherwise.
+        # The area with shadows has grown, so some edges are smoothed differently.
         off = [abs(a - b) for one, other in zip(self.picture("last.png")[3], first[3]) for a, b in zip(one, other)]
         self.assertLess((max(off), sum(off) / len(off)), (24, 0.1))
         seen = [self.picture(f"{key}.png") for key in range(1, 8)]

@@ -1,5 +1,5 @@
 """VRM files, the format of avatars: their springs become chains that swing with their colliders, their humanoid gives the gait its legs, arms and head,
-what is malformed is left out, and every .glb has the springs again."""
+malformed parts are left out, and every .glb has the springs again."""
 
 import json
 import math

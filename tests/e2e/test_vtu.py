@@ -1,4 +1,4 @@
-"""VTK XML files: in every way that VTK writes them, they give the same grid; cut or changed, an error or a whole one."""
+"""VTK XML files: all encodings of VTK give the same grid. A truncated or changed file gives an error or a valid grid."""
 
 import re
 

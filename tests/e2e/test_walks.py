@@ -25,7 +25,7 @@ OTHERS = {
     "greenman": ((shared("greenman"), "greenman.glb"), (), {
         "flat, 0.1": {"support_margin": -0.34}, "flat, 0.3": {"support_margin": -0.34}}),
     "fox": ((shared("fox"), "fox.glb"), ("--unit", "0.01"), {}),
-    # All of its soft parts: its fine skin leaves the usual budget room for few, and rigid ones shift its centre of mass.
+    # All of its soft parts: with its fine skin the default budget suffices for few, and rigid ones shift its centre of mass.
     "walkdae": ((shared("walk-dae"), "walk.dae"), ("--budget", "none"), {}),
     # With the abdomen in the pose of its idle clip, the body drops once while eight legs run up stairs.
     "spiderglb": ((shared("spider"), "spider.glb"), (), {"stairs of a quarter leg, 3": {"body_speed_step": 0.0929}}),
@@ -34,7 +34,7 @@ OTHERS = {
         "flat, forward, then back": CRAWLS}),
 }
 
-# All walks on every ground: nothing is missed.
+# All walks on every ground meet all criteria.
 EVERYWHERE = ("spiderglb",)
 
 # Straight walks off flat ground: criteria that they do not meet.

@@ -22,7 +22,7 @@ f 1/1 2/2 3/3 4/4\nf 6/1 5/2 8/3 7/4\nf 5/1 1/2 4/3 8/4\nf 2/1 6/2 7/3 3/4\nf 4/
 
 
 def write(folder, image):
-    """The path of box.obj; beside it stand its material and, where there is one, the bytes of its image."""
+    """The path of box.obj; its material and, if any, its image are beside it."""
     material = b"newmtl skin\nKd 1 1 1\nmap_Kd red.png\n"
     for name, data in (("box.obj", BOX.encode()), ("box.mtl", material), ("red.png", image)):
         if data is not None:

@@ -14,7 +14,7 @@ HUMAN = {"hips": "hips", "spine": "spine", "chest": "chest", "head": "head",
 
 
 class Avatar:
-    """`plain`: nodes have the names of their bones; else numbers, which say nothing. `back`: it faces -Z, as VRM 0.x."""
+    """`plain`: nodes have the names of their bones; else numbers, without a meaning. `back`: it faces -Z, as VRM 0.x."""
 
     def __init__(self, plain=True, back=False, tail=False):
         self.glb, self.node, self.back = SkinnedGlb(), {}, back

@@ -60,7 +60,7 @@ def leg_of(path):
 
 
 def measure(path, walk, leg, *more):
-    """The report of a run, or raises with what the program said."""
+    """The report of a run. Raises an error with the program's output if it fails."""
     lines = "".join(f"{at} drive {forward * leg} {turn} {aside * leg}\n" for at, forward, turn, aside in walk.script)
     with tempfile.NamedTemporaryFile("w", suffix=".txt") as script:
         script.write(lines)
@@ -73,7 +73,7 @@ def measure(path, walk, leg, *more):
 
 
 def failures(report, walk, leg, bounds=None):
-    """What a walk's measures miss of what was asked for, as texts. `bounds` replaces some of them."""
+    """Criteria that a walk's measures do not meet, as texts. `bounds` replaces some bounds."""
     maximum = {"stance_slip": min(SLIP_M, SLIP_SHARE * leg), "penetration": PENETRATION_M, "skate_ratio": 0,
             "knee_speed_step": KNEE_DEGREES, "opposite_feet_in_air": 0, "limit_excess": LIMIT_DEGREES,
             "body_speed_step": BODY_SHARE * leg, "body_turn_step": BODY_DEGREES, **(bounds or {})}

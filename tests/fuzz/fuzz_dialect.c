@@ -25,7 +25,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   snprintf(path, sizeof path, "%s/sbfmt-fuzz-%ld.xml", folder, (long)getpid());
   FUZZ_MUST(harness_write(path, data, size));
   /* Another root is assimp's to read, in a process of its own. */
-  if (sbfi_paper_knows(path)) {
+  if (sbfi_paper_supports(path)) {
     sbf_status status = sbf_convert(path, NULL, &asset, &error);
     if (status == SBF_OK && sbf_export(asset, path, NULL, &error) == SBF_OK) {
       FUZZ_MUST(sbf_convert(path, NULL, &again, &error) == SBF_OK);

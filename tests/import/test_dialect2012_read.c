@@ -94,7 +94,7 @@ START_TEST(unknown_elements_are_skipped)
       "</joints></rigid_bodies></model>";
   const char *path = harness_scratch("passed_over.xml");
   ck_assert(harness_write(path, text, strlen(text)));
-  ck_assert(sbfi_paper_knows(path));
+  ck_assert(sbfi_paper_supports(path));
   ck_assert_int_eq(sbfi_paper_read(&model, path, NULL, NULL), SBF_OK);
   ck_assert_uint_eq(model.ignored_count, 2);
   ck_assert_str_eq(model.ignored_name, "thing");
@@ -108,9 +108,9 @@ START_TEST(another_xml_is_not_of_the_dialect)
 {
   const char *path = harness_scratch("other.xml");
   ck_assert(harness_write(path, "<mesh/>", 7));
-  ck_assert(!sbfi_paper_knows(path));
-  ck_assert(!sbfi_paper_knows("model.sbf"));
-  ck_assert(!sbfi_paper_knows("no/such/file.xml"));
+  ck_assert(!sbfi_paper_supports(path));
+  ck_assert(!sbfi_paper_supports("model.sbf"));
+  ck_assert(!sbfi_paper_supports("no/such/file.xml"));
 }
 END_TEST
 
@@ -130,7 +130,8 @@ START_TEST(failed_allocations_are_reported)
     }
     ck_assert_uint_eq(memory.held_bytes, 0);
     if (status == SBF_OK) break;
-    if (sbfi_paper_knows(path) && error.code == SBF_CODE_OUT_OF_MEMORY) ck_assert_int_eq(status, SBF_FAILED);
+    if (sbfi_paper_supports(path) && error.code == SBF_CODE_OUT_OF_MEMORY)
+      ck_assert_int_eq(status, SBF_FAILED);
   }
 }
 END_TEST

@@ -52,13 +52,14 @@ void host_body_tell(scene *s, host_body *b) {
   b->is_reported = true;
 }
 
-/* Its push and its weight, then its way; `floor`: a height that its middle does not go below. */
+/* Applies the impulse and gravity, then moves the body. `floor`: minimum height of its middle. */
 static void take(scene *s, host_body *b, double floor) {
   b->velocity[1] -= b->weight * TICK_S;
   for (uint32_t i = 0; i < b->parts; i++) {
     sbr_collider_impulse push = sbr_collider_take_impulse(s->world, b->ids[i]);
     sbf_vec3 turn = sbri_add(push.moment, sbri_cross(sbri_rotate(b->rotation, b->arms[i]), push.impulse));
-    /* What turns it is taken along its own axes: balls, and crates that hardly turn. */
+    /* Angular impulses act about the body's own axes. That suffices for balls, and for crates that hardly
+     * rotate. */
     const float j[3] = {push.impulse.x, push.impulse.y, push.impulse.z}, l[3] = {turn.x, turn.y, turn.z};
     for (int k = 0; k < 3; k++) {
       b->velocity[k] += (double)j[k] / b->mass;
@@ -87,7 +88,7 @@ double host_body_speed(const host_body *b) {
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Its fastest in so many ticks. */
+/* Maximum speed over the given number of ticks. */
 double host_body_fastest(scene *s, host_body *b, uint32_t ticks) {
   double max = 0;
   for (uint32_t i = 0; i < ticks; i++) {

@@ -92,7 +92,7 @@ void ik_expect_keeps_limits(ik_method *solve, int min) {
     ik_chain_bent(&f);
     ik_chain_limit(&f, 0.6f);
     f.chain.target = ik_random_place(&seed, 8);
-    if (sbri_length(f.chain.target) < 4) f.chain.target.y += 5; /* nearer than a coil of it comes */
+    if (sbri_length(f.chain.target) < 4) f.chain.target.y += 5; /* closer than the coiled chain can reach */
     reached += solve(&f.chain).reached;
     ck_assert_float_le(ik_chain_excess(&f), 2e-5f);
   }
@@ -100,7 +100,7 @@ void ik_expect_keeps_limits(ik_method *solve, int min) {
 }
 
 void ik_expect_keeps_hinges(ik_method *solve, int min) {
-  static const sbf_vec3 axes[2] = {{1, 0, 0}, {0, 0, 1}}; /* by turns */
+  static const sbf_vec3 axes[2] = {{1, 0, 0}, {0, 0, 1}}; /* alternately */
   sbri_joint_limit hinges[2];
   uint32_t seed = 13;
   int reached = 0;

@@ -236,7 +236,7 @@ typedef struct box {
   uint32_t point_count;
   uint32_t *quads; /* (quad_count x 4) */
   uint32_t quad_count;
-  uint32_t *slots; /* ((cells + 1)^3) number of the point at each lattice place of the surface */
+  uint32_t *slots; /* ((cells + 1)^3) index of the surface point at each lattice node */
 } box;
 
 static uint32_t box_point(box *b, const uint32_t at[3]) {

@@ -1,4 +1,4 @@
-/* Heavy bodies on light ones come to rest. */
+/* Heavy bodies on top of light ones come to rest. */
 #include <math.h>
 
 #include "contact_scenes.h"
@@ -14,12 +14,12 @@ static double size(sbf_vec3 v) {
 static scene begin(void) {
   scene s = contact_scene_begin(gravity);
   s.world_definition.ground = sbr_ground_flat(0);
-  s.world_definition.sleep_after_s = 0; /* sleep would hide what still moves */
+  s.world_definition.sleep_after_s = 0; /* sleeping bodies would hide remaining motion */
   s.character_definition.position.y = 0;
   return s;
 }
 
-/* Fastest point of all boxes in the next second, m/s. */
+/* Maximum speed of a point of any box in the next second, m/s. */
 static double fastest_in_a_second(scene *s, uint32_t count, float radius) {
   double fastest = 0;
   for (int tick = 0; tick < 60; tick++) {

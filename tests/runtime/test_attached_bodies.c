@@ -1,4 +1,4 @@
-/* Stiff flesh on a light bone, which all would have to step with. */
+/* Stiff flesh on a light bone. A stable explicit step would be tiny for the whole group. */
 #include <math.h>
 
 #include "harness.h"
@@ -73,16 +73,16 @@ static void hit(const scene *s, const limb *of) {
   hit_hard(s, of, 1);
 }
 
-static bool bears(const scene *s) {
+static bool is_attached(const scene *s) {
   return sbri_attached_loads(sbri_character_of(s->world, s->character))[LIMB].is_attached;
 }
 
-/* Flesh that hardly damps itself would swing up, so it is not borne. */
-static bool may_bear(const limb *of) {
+/* Flesh with almost no damping could gain energy, so it is not attached. */
+static bool may_be_attached(const limb *of) {
   return of->damping_ratio >= 0.03f;
 }
 
-/* What the step has the flesh take it takes, to rounding, however it lies. */
+/* Momentum is conserved except rounding, in any orientation of the flesh. */
 START_TEST(momentum_is_kept)
 {
   scene s = limb_of(&limbs[_i], 0);
@@ -91,7 +91,7 @@ START_TEST(momentum_is_kept)
   scene_momentum first = scene_momentum_of(&s);
   for (int second = 0; second < 5; second++) {
     scene_ticks(&s, 60);
-    ck_assert_int_eq(bears(&s), may_bear(&limbs[_i]));
+    ck_assert_int_eq(is_attached(&s), may_be_attached(&limbs[_i]));
     scene_momentum now = scene_momentum_of(&s);
     for (int k = 0; k < 3; k++) {
       ck_assert_double_eq_tol(now.linear[k], first.linear[k], 2e-5 * first.mass);
@@ -102,7 +102,7 @@ START_TEST(momentum_is_kept)
 }
 END_TEST
 
-/* J, of all that moves. */
+/* J, total energy of all moving parts. */
 static double kinetic(const scene *s) {
   const sbri_character *c = sbri_character_of(s->world, s->character);
   const sbri_island *island = &c->model->islands[0];
@@ -128,9 +128,9 @@ START_TEST(a_hit_does_not_increase_the_motion)
 }
 END_TEST
 
-/* What nothing takes stays, nine seconds long, and nothing is added: at ten times the hit what is crushed
- * takes some, and what is wild is calmed. The slack is what the halves of a step, at which places and
- * velocities are known, leave open. */
+/* Without damping, the energy stays constant for nine seconds. At ten times the impulse it may only fall:
+ * compressed elements and the speed limit take energy. The tolerance is the error of a step, which evaluates
+ * positions and velocities half a step apart. */
 START_TEST(an_undamped_soft_body_conserves_energy)
 {
   static const int which[] = {2, 3, 6, 8};
@@ -140,7 +140,7 @@ START_TEST(an_undamped_soft_body_conserves_energy)
   scene_start(&s);
   hit_hard(&s, of, hits[_i % 2]);
   double first = scene_energy_of(&s), last = 0;
-  scene_ticks(&s, 2); /* the blow is taken up at once, in part by walls */
+  scene_ticks(&s, 2); /* absorbed at once, partly by the compression limit */
   double taken = scene_energy_of(&s);
   for (int t = 0; t < 540; t++) {
     sbr_world_tick(s.world);
@@ -157,8 +157,8 @@ static float separation(sbf_vec3 a, sbf_vec3 b) {
   return sqrtf((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
 }
 
-/* Against steps as many as all would need, a quarter of those asked for in flight: bones and flesh go the
- * same way. */
+/* Compared with as many steps as the stiffest body needs, and a quarter of the requested steps in flight:
+ * bones and flesh follow the same path. */
 START_TEST(it_moves_as_with_fine_steps)
 {
   scene s = limb_of(&limbs[_i], -9.81f), fine = limb_of(&limbs[_i], -9.81f);
@@ -170,7 +170,7 @@ START_TEST(it_moves_as_with_fine_steps)
   for (int t = 0; t < 30; t++) {
     sbr_world_tick(s.world);
     sbr_world_tick(fine.world);
-    ck_assert(bears(&s) == may_bear(&limbs[_i]) && !bears(&fine));
+    ck_assert(is_attached(&s) == may_be_attached(&limbs[_i]) && !is_attached(&fine));
     float bone = separation(rigid_state(&s, LIMB).center, rigid_state(&fine, LIMB).center), flesh = 0;
     for (uint32_t i = 0; i < POINTS; i++)
       flesh = fmaxf(flesh, separation(scene_point(&s, 0, i), scene_point(&fine, 0, i)));

@@ -1,5 +1,5 @@
-/* Bodies of each model that begin scrambled, flat, mirrored or all in one place, in every scheme: no number
- * that is none, ever, and of the schemes that promise it the shape again within a second. */
+/* Bodies of each model start scrambled, flat, mirrored or with all points at one position, in every scheme.
+ * No number may become NaN or infinite. Schemes that promise recovery restore the shape within a second. */
 #include <math.h>
 #include <string.h>
 
@@ -90,7 +90,7 @@ START_TEST(bad_starts_are_survived)
       scene s = make(schemes[_i], (kind)what);
       scene_start(&s);
       spoil(&s, (start)how);
-      int whole = 0, since = 0; /* ticks that it is whole; the first of them, once they are ten */
+      int whole = 0, since = 0; /* ticks with an intact shape; the first of ten in a row */
       for (int i = 1; i <= TICKS; i++) {
         scene_ticks(&s, 1);
         sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);

@@ -24,7 +24,7 @@ static scene make_beam(float young, sbf_scheme scheme, uint32_t substeps) {
   return s;
 }
 
-/* Where it hangs: found by long damped steps of the symplectic scheme. */
+/* Its static shape, found by long damped steps of the symplectic scheme. */
 static float hangs_at(float young) {
   scene s = scene_begin();
   lattice_box box =
@@ -56,8 +56,8 @@ START_TEST(it_hangs_at_the_minimum_of_energy)
 }
 END_TEST
 
-/* One mass on a spring, along it: implicit Euler, whose damping ratio is w h / 2 and whose period is longer.
- */
+/* One mass on a spring, moving along it. Implicit Euler damps it at the ratio w h / 2 and lengthens its
+ * period. */
 START_TEST(it_damps_as_implicit_euler_does)
 {
   const float k = 400; /* w = 20 */
@@ -89,7 +89,7 @@ START_TEST(it_damps_as_implicit_euler_does)
 }
 END_TEST
 
-/* Stiffer than any explicit step would take, scrambled, and turned inside out. */
+/* Too stiff for any explicit step, then scrambled, then inverted. */
 START_TEST(any_stiffness_is_stable)
 {
   scene s = make_beam(1e8f, SBF_SCHEME_BLOCK_DESCENT, 3);

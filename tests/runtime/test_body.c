@@ -1,4 +1,4 @@
-/* How hips and chest turn with the lines between the feet; walks test the rest of the body. */
+/* Tests how hips and chest rotate with the lines between the feet. Walks test the rest of the body. */
 #include <math.h>
 
 #include "gait_stage.h"
@@ -13,7 +13,7 @@ static sbf_gait *gait_of(gait_stage *s) {
   return (sbf_gait *)(uintptr_t)&s->asset->gaits.at[0];
 }
 
-/* With one foot so far ahead of where it stands, the body facing anywhere. */
+/* Places one foot the given distance ahead of its rest position. The body may face any direction. */
 static sbri_stance stance_with(gait_stage *s, uint32_t leg, float ahead, float heading) {
   sbri_gait_reset(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), heading);
   sbf_vec3 *foot = &s->state->feet[leg].ground;
@@ -21,7 +21,8 @@ static sbri_stance stance_with(gait_stage *s, uint32_t leg, float ahead, float h
   return sbri_body_stance(&s->rig, s->state, &s->input);
 }
 
-/* Of `fraction` of the line's angle, feet standing wide enough for it to count nearly whole. */
+/* The hips rotate by `fraction` of the line's angle. The feet are wide enough apart for almost the full
+ * effect. */
 static void expect_turn(float yaw, float fraction, float side) {
   float angle = fraction * atan2f(AHEAD, ACROSS), turn = 0.8f * angle / (0.8f + angle);
   ck_assert_float_le(side * yaw, turn);
@@ -77,7 +78,7 @@ START_TEST(crossed_feet_do_not_reverse_the_hips)
 }
 END_TEST
 
-/* Rad, about +Y, of a bone as posed, from how it lies at rest and from where the body faces. */
+/* Rotation of a posed bone about +Y, relative to its rest pose and the body's heading, rad. */
 static float posed_yaw(const gait_stage *s, uint32_t bone) {
   sbf_quat turned =
       sbri_quat_multiply(s->pose[bone].rotation, sbri_quat_conjugate(s->rig.bones.rest[bone].rotation));

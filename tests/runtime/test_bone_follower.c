@@ -37,8 +37,8 @@ static void tick(gait_stage *s) {
   gait_stage_ticks(s, 1);
 }
 
-/* Of y + (2z/w) y' + y''/w^2 = x, where x goes evenly from 0 to 1 in h and stays: the answer to a ramp less
- * that to one that begins h later; in double precision. */
+/* Solution of y + (2z/w) y' + y''/w^2 = x, where x rises linearly from 0 to 1 in h and then stays: the
+ * response to a ramp minus the response to the same ramp started h later. Double precision. */
 static double ramp(double t) {
   if (t <= 0) return 0;
   double w = 2 * 3.14159265358979 * (double)HZ, z = (double)RATIO, u = w * sqrt(1 - z * z);

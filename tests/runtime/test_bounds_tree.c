@@ -11,7 +11,7 @@ static float random_of(uint32_t *seed) {
   return (float)(*seed >> 8) / 16777216.0f;
 }
 
-/* Every box that meets the one asked for is found, once. */
+/* Every box that overlaps the query box is found exactly once. */
 START_TEST(a_traversal_finds_all_overlaps)
 {
   static sbri_box boxes[COUNT];
@@ -43,7 +43,7 @@ START_TEST(a_traversal_finds_all_overlaps)
 }
 END_TEST
 
-/* Boxes that have moved far: a refitted tree finds the same as a new one. */
+/* After boxes moved far, a refitted tree finds the same as a rebuilt one. */
 START_TEST(a_refitted_tree_finds_all_overlaps)
 {
   static sbri_box boxes[COUNT];

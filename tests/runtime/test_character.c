@@ -226,7 +226,7 @@ START_TEST(handles_are_valid_while_it_lives)
 }
 END_TEST
 
-/* Each number of a definition, and each of the calls that nobody hears fail. */
+/* Sets each number of a definition to an invalid value, and calls functions whose failure is silent. */
 START_TEST(invalid_numbers_are_never_accepted)
 {
   static const float bad[4] = {NAN, INFINITY, -INFINITY, 1e16f};
@@ -289,7 +289,8 @@ START_TEST(invalid_numbers_are_never_accepted)
 }
 END_TEST
 
-/* One world, two floors: what stands on the upper one goes as the other does, as much higher. */
+/* One world with two floors: a character on the upper one moves like the other, higher by the same
+ * distance. */
 START_TEST(each_may_have_its_own_ground)
 {
   scene s = walker();

@@ -55,7 +55,7 @@ START_TEST(ticks_allocate_only_at_a_change)
   size_t calls = memory.calls;
   scene_ticks(&s, 200);
   ck_assert_uint_eq(memory.calls, calls);
-  for (uint32_t n = 0; n < 6; n++) { /* who comes and goes within a second keeps both */
+  for (uint32_t n = 0; n < 6; n++) { /* memory of a level that is unused for less than a second is kept */
     sbr_character_set_detail_level(s.world, s.character, n % 2 ? DETAIL_FINE : DETAIL_BONES);
     scene_ticks(&s, 50);
   }
@@ -64,7 +64,7 @@ START_TEST(ticks_allocate_only_at_a_change)
 }
 END_TEST
 
-/* Refusals of memory in the last tick, all of one use. */
+/* Failed allocations in the last tick, all of one kind. */
 static uint32_t refusals(const scene *s, sbr_memory_use use) {
   sbr_memory_events events = sbr_world_get_memory_events(s->world);
   for (uint32_t i = 0; i < events.refused_count; i++) {
@@ -74,7 +74,7 @@ static uint32_t refusals(const scene *s, sbr_memory_use use) {
   return events.refused_count;
 }
 
-/* It goes on as if nobody had asked, and goes over as soon as it may. */
+/* The simulation continues as if nothing was requested, and changes level as soon as memory is available. */
 START_TEST(a_failed_allocation_keeps_the_detail_level_and_is_reported)
 {
   const uint32_t to = _i ? DETAIL_BONES : DETAIL_FINE, from = _i ? DETAIL_FINE : DETAIL_BONES;
@@ -109,7 +109,7 @@ typedef struct crowd {
   sbr_character_id ids[CROWD];
 } crowd;
 
-/* A row away from the eye, that looks along it. */
+/* A row of characters in front of the camera, along its view direction. */
 static void check(const crowd *c, double from) {
   const sbr_view view = {{0, 1, from}, {0, 0, 1}, 1, 1.5f, 1080};
   sbr_world_set_views(c->s.world, &view, 1);
@@ -163,7 +163,7 @@ START_TEST(a_distant_crowd_needs_a_fraction_of_the_memory)
 }
 END_TEST
 
-/* The eye comes, and goes; memory fails at each of the calls in turn. */
+/* The camera approaches and leaves. An allocation fails at each of the calls in turn. */
 static uint64_t pass(crowd *c, harness_memory *memory, size_t allowed) {
   size_t before = memory->calls;
   check(c, -400);

@@ -145,8 +145,8 @@ static uint32_t detail_level_beside(crowd *c, double aside) {
   return detail_level_of(c, 0);
 }
 
-/* Beyond a view's edges it becomes fine in one tick, before it can be seen, and nowhere does it come and go.
- */
+/* A character outside the view becomes fine within one tick, before it is visible. It never alternates
+ * between levels. */
 START_TEST(a_rotating_view_finds_fine_levels)
 {
   crowd c = make_crowd(NULL, NULL);
@@ -183,7 +183,7 @@ START_TEST(a_budget_is_kept_and_spent_on_near_characters)
   sbr_model_get_detail_levels(alone.model, detail_levels, 8);
   scene_free(&alone);
   sbr_detail_definition how = sbr_default_detail_definition();
-  how.error_px = 1e-3f; /* all as fine as can be, but */
+  how.error_px = 1e-3f; /* without a budget, all would be at the finest level */
   double all = CROWD * (double)detail_levels[0].visits, max = 6 * (double)detail_levels[0].visits;
   how.budget_us = (float)(max * (double)how.ns_per_visit * 1e-3);
   crowd c = make_crowd(&how, NULL);

@@ -1,4 +1,4 @@
-/* What a host's bodies are pushed with: the two have as much momentum after as before. */
+/* Impulses on a host's bodies: the total momentum of both sides is conserved. */
 #include <math.h>
 
 #include "collision_scenes.h"
@@ -6,7 +6,7 @@
 #include "momentum.h"
 #include "rigid_scenes.h"
 
-/* A body of the host, which goes by what its collider was pushed with. */
+/* A body of the host that moves by the impulses on its collider. */
 typedef struct external_body {
   sbr_shape *shape;
   sbr_collider_id id;
@@ -23,8 +23,8 @@ static external_body external_body_of(
   return g;
 }
 
-/* It takes the push that it got, and its way of the next tick; turning does not show in a ball, nor in what
- * little a box turns. */
+/* Applies the impulse and moves the body by one tick. Rotation is left out: a ball looks the same, and a box
+ * hardly rotates. */
 static void external_body_tick(scene *s, external_body *g, double tick_s) {
   sbr_collider_move(s->world, g->id,
       (sbr_double3){g->at[0] + tick_s * g->velocity[0], g->at[1] + tick_s * g->velocity[1],
@@ -52,7 +52,8 @@ static scene_momentum all_of(const scene *s, const external_body *g) {
   return m;
 }
 
-/* Turning but as well as the host goes by ticks: it gets a push where its place is at the end of one. */
+/* Angular momentum has its own tolerance: the host moves a body once a tick, and impulses act at its position
+ * at the end of the tick. */
 static void assert_kept(const scene_momentum *is, const scene_momentum *was, double within, double turning) {
   for (int k = 0; k < 3; k++) {
     ck_assert_double_eq_tol(is->linear[k], was->linear[k], within);

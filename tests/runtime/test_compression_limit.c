@@ -46,8 +46,8 @@ START_TEST(a_blow_inverts_no_element)
 }
 END_TEST
 
-/* One element crushed to a fiftieth and still being crushed: it is back at the wall, stands there, and no
- * momentum is lost; of another that is inside out, J has risen. */
+/* One element is compressed to a fiftieth and still compressing. It returns to the limit and stops there
+ * without loss of momentum. The J of an inverted element rises. */
 START_TEST(the_wall_conserves_momentum)
 {
   scene s = scene_begin();
@@ -91,7 +91,7 @@ START_TEST(the_wall_conserves_momentum)
 }
 END_TEST
 
-/* Without a mark, the sweep does not read a block. */
+/* The sweep skips blocks without a mark. */
 START_TEST(only_marked_blocks_are_swept)
 {
   scene s = scene_begin();

@@ -5,7 +5,7 @@
 
 static const double tick = 1.0 / 60, pi = 3.14159265358979323846;
 
-/* Eight points that hold together: the corners of a cube of 0.2 m that stands on the origin, square to a
+/* Eight points connected by springs: the corners of a cube of 0.2 m. It stands on the origin, aligned with a
  * slope of `degrees`. */
 static scene cube(
     float friction, float restitution, sbr_ground ground, sbr_double3 position, double degrees) {
@@ -108,8 +108,8 @@ START_TEST(bodies_stick_below_the_friction_angle_and_slide_above)
 }
 END_TEST
 
-/* Of a slope of 20 degrees, friction of tan 20 = 0.36 all over holds; here the lower half has all of it, 1.2
- * or 0.12. */
+/* On a slope of 20 degrees, uniform friction of tan 20 = 0.36 suffices. Here only the lower half has
+ * friction, 1.2 or 0.12. */
 START_TEST(a_weight_map_scales_friction)
 {
   for (int pinned = 0; pinned < 2; pinned++) {

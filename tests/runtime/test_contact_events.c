@@ -58,7 +58,7 @@ START_TEST(two_bodies_begin_hit_and_end)
 }
 END_TEST
 
-/* As many hits as the threshold allows. */
+/* Only a contact faster than the threshold is a hit. */
 START_TEST(slow_contacts_are_no_hits)
 {
   static const float thresholds[3] = {0, 1.9f, 2.1f};

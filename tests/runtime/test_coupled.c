@@ -1,4 +1,4 @@
-/* Soft bodies that pull on the rigid bodies that hold them, against closed forms. */
+/* Soft bodies exert forces on the rigid bodies that they are pinned to. Compared with closed forms. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -35,7 +35,7 @@ static scene dumbbell(float soft_kg, float rigid_kg, float damping_ratio) {
   return s;
 }
 
-/* A hit on one end, off its middle: what goes in stays in, whichever part is the heavier one. */
+/* An impulse on one end, off its middle: total momentum is conserved, whichever part is heavier. */
 static const struct {
   float soft_kg, rigid_kg, damping_ratio;
 } dumbbells[] = {{1, 1, 0}, {1, 1, 0.2f}, {0.1f, 10, 0.05f}, {10, 0.1f, 0.05f}, {100, 0.1f, 0.05f}};
@@ -58,15 +58,15 @@ START_TEST(a_hit_conserves_momentum)
       ck_assert_double_eq_tol(now.angular[k], first.angular[k], 2e-4 * (double)whole);
     }
   }
-  sbf_vec3 other = rigid_state(&s, 1).velocity; /* which has heard of it */
+  sbf_vec3 other = rigid_state(&s, 1).velocity; /* which has received the impulse */
   ck_assert_float_ge(fabsf(other.x) + fabsf(other.y), 0.1f * impulse.y / whole);
   scene_free(&s);
 }
 END_TEST
 
-/* Undamped, at the hit above and at ten times that: some 20 m/s, faster than sound in such flesh. What is
- * crushed takes energy, what is too wild is calmed; neither has the bones' motion as if these weighed more
- * than anything, so nothing swings up. */
+/* Undamped, with the impulse above and with ten times that: about 20 m/s, faster than sound in such flesh.
+ * Compressed elements and the speed limit take energy. Neither may treat the bones as infinitely heavy, or
+ * the motion would gain energy. */
 static const struct {
   float soft_kg, rigid_kg, times;
   int ticks;
@@ -92,8 +92,8 @@ START_TEST(a_hard_hit_swings_nothing_up)
 }
 END_TEST
 
-/* Points between two boxes, each on springs to four points of either: what the springs give the boxes, and
- * their damping too, they take from the points. */
+/* Points between two boxes, each on springs to four points of each box. The boxes receive the opposite of the
+ * springs' and dampers' forces on the points. */
 START_TEST(springs_conserve_momentum)
 {
   enum { HELD = 8, FREE = 3 };
@@ -204,7 +204,8 @@ START_TEST(both_ends_of_a_spring_swing)
 }
 END_TEST
 
-/* A load on a column of flesh whose foot stands fast: pressed by (load + half its own weight) L / (E A). */
+/* A load on a column of flesh whose lower end is fixed: compressed by (load + half its own weight) L / (E
+ * A). */
 START_TEST(a_load_presses_a_column)
 {
   static const float loads[3] = {0.05f, 1, 10};
@@ -227,7 +228,7 @@ START_TEST(a_load_presses_a_column)
   double soft = 0;
   for (uint32_t i = 0; i < c->model->islands[0].free_count; i++)
     soft += (double)c->model->islands[0].masses[i];
-  /* What the held ends would weigh is theirs, so the rest hangs between them evenly. */
+  /* The boxes carry the mass of the pinned ends, so the rest hangs between them symmetrically. */
   scene_ticks(&s, 300);
   double expected = 9.81 * ((double)loads[_i] + 0.5 * soft) * (double)(length / (young * side * side));
   double found = (double)(length + 0.05f - rigid_state(&s, body).center.y);
@@ -238,9 +239,8 @@ END_TEST
 
 /* ---- Weight ---- */
 
-/* A heavy block of flesh under a light bone that hangs on a ball joint, and a light one under a heavy bone:
- * neither shakes the joint apart, and what swings goes on swinging as a pendulum does, losing no energy to
- * speak of. */
+/* A heavy block of flesh under a light bone on a ball joint, and a light block under a heavy bone. The joint
+ * stays connected in both, and the swing continues as a pendulum almost without energy loss. */
 static const struct { float soft_kg, rigid_kg; } hung[] = {{50, 0.05f}, {5, 0.05f}, {1, 1}, {0.01f, 10}};
 
 START_TEST(a_soft_body_is_attached_to_a_joint)
@@ -345,7 +345,7 @@ START_TEST(the_same_bits_on_any_threads)
 }
 END_TEST
 
-/* Flesh and bones fall asleep in the same tick, and wake in the same. */
+/* Flesh and bones fall asleep in the same tick, and wake in the same tick. */
 START_TEST(coupled_bodies_sleep_together)
 {
   scene s = on_the_ground();

@@ -1,5 +1,5 @@
-/* A soft body between two that bones hold. Nothing stops bones, so there is no room for it in the end: it
- * overlaps the others then, and nothing is thrown about. */
+/* A soft body between two that are pinned to bones. Nothing stops the bones, so in the end the body has no
+ * space left. It then overlaps the others, and no point becomes fast. */
 #include <math.h>
 
 #include "contact_scenes.h"

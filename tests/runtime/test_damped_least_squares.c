@@ -47,7 +47,7 @@ START_TEST(comfort_angles_act_without_moving_the_end)
 }
 END_TEST
 
-/* About an axis that a comfort does not mind nothing of it is felt, about the others all of it. */
+/* A comfort weight has no effect about axes that it excludes, and its full effect about the others. */
 START_TEST(comforts_act_by_axis)
 {
   ik_chain_fixture f[4];

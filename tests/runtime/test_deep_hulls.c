@@ -10,9 +10,9 @@ static const float RADIUS = 0.3f;
 
 enum { HEIGHTS = 3, CLOTHS = 9 };
 
-/* Cloth falls on a ball, on its middle and beside it: what springs throw back under the ball is faster in a
- * tick than it was before. Left is what they pull points by within a step: of the stiffest, in cells of 17
- * cm, 4.0 mm at 6 m/s and 6.1 mm at 14 m/s. */
+/* Cloth falls on a ball, on its middle and beside it. Springs may push a point under the ball faster in a
+ * tick than before. The tolerance is the distance that the stiffest springs pull points in a step: with cells
+ * of 17 cm, 4.0 mm at 6 m/s and 6.1 mm at 14 m/s. */
 START_TEST(cloth_does_not_enter_a_ball)
 {
   static const uint32_t cells[3] = {6, 12, 24};

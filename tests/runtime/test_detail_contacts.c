@@ -1,4 +1,4 @@
-/* Detail levels in a world whose bodies meet each other. */
+/* Detail levels in a world with contacts between characters. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,7 +8,7 @@
 #include "host_threads.h"
 #include "sbrun/collision.h"
 
-/* Two boxes that look at each other, so far apart along +Z, at whom a camera looks from afar. */
+/* Two boxes that face each other at the given distance along +Z, viewed by a distant camera. */
 typedef struct pair {
   scene s;
   sbr_character_id ids[2];
@@ -45,7 +45,7 @@ static double bent(const pair *p, int who) {
   return sbr_character_get_body_health(p->s.world, p->ids[who], 0).elastic_j;
 }
 
-/* The first goes to where their boxes would be this deep in each other if they did not give way. */
+/* Moves the first box until the two would overlap by this depth if they were rigid. */
 static void go(pair *p, int tick, double deep) {
   double left = 2 * (position_of(p, 1) - position_of(p, 0) - 0.2 + deep);
   float speed = left > 1 ? 1.0f : left > 0 ? (float)left : 0;
@@ -84,7 +84,7 @@ START_TEST(isolated_characters_use_bones_and_return_before_a_contact)
 }
 END_TEST
 
-/* Told to be bones, it is so only while nobody is about. */
+/* Switched to the bones' level, it stays there only while no character is near. */
 START_TEST(a_requested_level_waits_until_nobody_is_near)
 {
   pair p = make(NULL, false);
@@ -105,7 +105,7 @@ START_TEST(a_requested_level_waits_until_nobody_is_near)
 }
 END_TEST
 
-/* Pressed against each other, one goes from lattice to lattice. */
+/* While they are pressed together, one changes from lattice to lattice. */
 START_TEST(characters_in_contact_change_the_lattice_and_stay_in_contact)
 {
   pair p = make(NULL, false), stays = make(NULL, false);
@@ -123,7 +123,7 @@ START_TEST(characters_in_contact_change_the_lattice_and_stay_in_contact)
     }
   }
   ck_assert_msg(max < 2.5 * max_staying, "%g J, %g without a change", max, max_staying);
-  ck_assert_msg(min > 0.02, "%g J", min); /* nobody goes through the other */
+  ck_assert_msg(min > 0.02, "%g J", min); /* they do not pass through each other */
   scene_free(&p.s), scene_free(&stays.s);
 }
 END_TEST

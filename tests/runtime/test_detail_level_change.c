@@ -11,7 +11,7 @@
 /* Half a pixel of a screen of 1080, 60 degrees high, two metres away. */
 static const double HALF_PIXEL_M = 0.5 * 2 * 2 * 0.57735 / 1080;
 
-/* From each detail level to each other one, but away. */
+/* From each detail level to each other one, except the offscreen level. */
 enum { CHANGES = DETAIL_OFFSCREEN * (DETAIL_OFFSCREEN - 1) };
 static uint32_t from_of(int i) {
   return (uint32_t)i / (DETAIL_OFFSCREEN - 1);
@@ -21,8 +21,8 @@ static uint32_t to_of(int i) {
   return to + (to >= from_of(i));
 }
 
-/* By how much each vertex goes farther in the tick of the change, and in those after, than it would have gone
- * on either detail level by itself. */
+/* Extra distance that each vertex moves in the tick of the change and in the next ones, compared with a
+ * character that stays on either level. */
 START_TEST(the_skin_does_not_jump)
 {
   scene s = detail_scene_walking(from_of(_i)), stays = detail_scene_walking(from_of(_i));
@@ -33,7 +33,7 @@ START_TEST(the_skin_does_not_jump)
   ck_assert_uint_eq(sbr_character_get_detail_level(s.world, s.character), to_of(_i));
   detail_scene_skin(&s, is);
   ck_assert(detail_scene_farthest(was, is, count) == 0);
-  sbr_world_step(s.world, 1e-4); /* hardly later it is being looked at, and nothing shows */
+  sbr_world_step(s.world, 1e-4); /* no visible difference a moment later either */
   ck_assert(sbr_character_get_detail_fade(s.world, s.character) > 0.9f);
   detail_scene_skin(&s, is);
   ck_assert(detail_scene_farthest(was, is, count) < HALF_PIXEL_M / 10);
@@ -56,10 +56,10 @@ START_TEST(energy_does_not_rise_and_the_motion_continues)
   const uint32_t from = (uint32_t)_i, to = 1 - from;
   scene s = detail_scene_walking(from), other = detail_scene_walking(to);
   sbr_character_set_detail_level(s.world, s.character, to);
-  detail_scene_ticks(&s, &other, 1); /* it is looked at, and goes over in the next */
+  detail_scene_ticks(&s, &other, 1); /* it is in view, and changes level in the next tick */
   double elastic = detail_scene_elastic(&s), kinetic = detail_scene_kinetic(&s);
   ck_assert(elastic > 0);
-  sbr_world_step(s.world, 1e-9); /* nothing but the change, and a tick */
+  sbr_world_step(s.world, 1e-9); /* the only difference is the change, and one tick */
   ck_assert_msg(detail_scene_elastic(&s) < 1.5 * elastic, "%g J to %g", elastic, detail_scene_elastic(&s));
   ck_assert_msg(detail_scene_kinetic(&s) < 1.1 * kinetic, "%g J to %g", kinetic, detail_scene_kinetic(&s));
   double max = 0;
@@ -158,7 +158,7 @@ START_TEST(a_character_without_level_follows_its_drive_and_returns)
 }
 END_TEST
 
-/* What a follower should do, by its own equation, to the middle of a bone that is shaken. */
+/* Expected motion of the middle of a shaken bone, by the follower's equation. */
 START_TEST(jiggle_follows_its_bone)
 {
   scene s = detail_scene_walking(DETAIL_JIGGLE), bones = detail_scene_walking(DETAIL_BONES);

@@ -67,8 +67,8 @@ START_TEST(a_level_with_a_large_error_is_no_detail_level)
 }
 END_TEST
 
-/* What a level states of motion goes before what it states of rest, even where that has gone wrong; a scheme
- * that looks at elements more often costs so much more. */
+/* What a level states about motion ranks before what it states about rest, even if the latter is wrong. A
+ * scheme that visits elements more often costs proportionally more. */
 START_TEST(detail_levels_use_errors_measured_in_motion)
 {
   float visits = 0;

@@ -1,4 +1,4 @@
-/* Changes of detail level of what swings hard: nothing is seen to jump. */
+/* Detail level changes of characters that swing strongly: no visible jump. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -59,8 +59,8 @@ static void end(swinging *w) {
   sbr_shape_destroy(w->club);
 }
 
-/* The farthest that a vertex is from where it would be on its old detail level, at the end of the tick of the
- * change, as a share of how far it has been from where bones alone would have it. */
+/* Maximum distance of a vertex from its position on the old level, at the end of the tick of the change, as a
+ * fraction of its distance from the position by bones alone. */
 static double jump(int motion, uint32_t from, uint32_t to, int at) {
   swinging w = begin(motion, from, at - 20), stays = begin(motion, from, at - 20),
            bones = begin(motion, DETAIL_BONES, at - 20);
@@ -86,7 +86,7 @@ START_TEST(a_change_of_level_hardly_changes_a_swing)
   to += to >= from;
   for (int motion = 0; motion < MOTIONS; motion++)
     for (int at = 65 + 20 * (motion == KNOCKED), end_at = at + 30; at < end_at; at += 5) {
-      if ((at + 1) % TURNS_TICKS < 4) continue; /* nobody can know that it is about to be driven elsewhere */
+      if ((at + 1) % TURNS_TICKS < 4) continue; /* no level can predict a change of the drive */
       double fraction = jump(motion, from, to, at);
       ck_assert_msg(
           fraction < 0.08, "motion %d, %u to %u at %d: %g of the swing", motion, from, to, at, fraction);
@@ -120,7 +120,7 @@ static double pixels_of(double distance) {
 static const float elsewhere[][2] = {{0, 0}, {0, 0}, {4, 0}, {-4, 0}, {0.5f, 0}, {0, 6}, {0, -6}};
 enum { ELSEWHERE = sizeof elsewhere / sizeof *elsewhere };
 
-/* A world that chooses, one that is in the same state with another drive, and one that stays on its detail
+/* A world that chooses levels, one in the same state with another drive, and one that stays on its detail
  * level. */
 typedef struct watched_changes {
   swinging w;
@@ -157,8 +157,8 @@ static bool is_fading(const scene *s) {
   return fade > 0 && fade < 1;
 }
 
-/* Metres that the skin is from where it would be on the detail level that it leaves, driven by the
- * `number`-th. */
+/* Distance of the skin, in metres, from its position on the level that it leaves, driven by the `number`-th
+ * drive. */
 static double jump_driven(
     watched_changes *c, int number, uint32_t detail_level, int t, const sbr_view *view) {
   scene *both[] = {&c->other, &c->stays};
@@ -207,7 +207,7 @@ START_TEST(chosen_changes_jump_by_less_than_half_a_pixel)
 }
 END_TEST
 
-/* Of one that has just been made nothing has been seen. */
+/* A new character has no visible history. */
 START_TEST(a_new_character_begins_on_its_chosen_detail_level)
 {
   watched_changes c = watch_changes(CALM);

@@ -46,7 +46,7 @@ static scene begin(kind which, sbr_tasks tasks) {
   return s;
 }
 
-/* Of the model in a world of its own. */
+/* Steps the model in a world of its own. */
 static uint64_t hash_after_ticks(scene *s, kind which, sbr_tasks tasks) {
   sbr_world_destroy(s->world);
   s->world_definition.tasks = tasks;

@@ -71,7 +71,7 @@ static scene rod(sbf_track_property property, const float *values, uint32_t valu
   return s;
 }
 
-/* How far any free point is from where the bone alone would have it, in radii. */
+/* Maximum distance of a free point from its position by the bone alone, in radii. */
 static float farthest(const scene *s) {
   const sbri_character *c = sbri_character_of(s->world, s->character);
   const sbr_transform *bone = &sbri_pose(c)[0];

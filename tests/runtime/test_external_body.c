@@ -1,4 +1,4 @@
-/* Bodies of a host that flesh moves within the tick: they come to rest on it, and momentum is kept. */
+/* Bodies of a host that flesh moves within the tick: they come to rest on it, and momentum is conserved. */
 #include "shapes/external_body.h"
 
 #include <math.h>
@@ -60,7 +60,7 @@ START_TEST(momentum_is_kept)
     ck_assert_double_eq_tol(m.linear[1] + mass * b.velocity[1], mass * -2, 1e-4 * mass * 2);
     ck_assert_double_eq_tol(m.linear[2] + mass * b.velocity[2], 0, 1e-4 * mass * 2);
   }
-  ck_assert_double_gt(b.velocity[1], mass > 20 ? -1.6 : -0.2); /* it has given it away, and is not shot off */
+  ck_assert_double_gt(b.velocity[1], mass > 20 ? -1.6 : -0.2); /* it has transferred its momentum */
   ck_assert_double_lt(b.velocity[1], 1);
   ck_assert_double_lt(host_body_speed(&b), sqrt(4.25));
   end(&s, &b);
@@ -112,7 +112,7 @@ START_TEST(weight_presses_as_it_should)
 }
 END_TEST
 
-/* A light crate on the host's floor carries the cube; a free crate would yield. */
+/* A light crate on the host's floor supports the cube. A free crate would move away. */
 START_TEST(bodies_on_a_floor_carry_others)
 {
   scene s = flesh_begin();
@@ -156,7 +156,7 @@ START_TEST(several_bodies_carry_it_together)
 }
 END_TEST
 
-/* Not told of for some ticks it goes on as it was, and falls. */
+/* Without an update for some ticks it continues its motion, and falls. */
 START_TEST(without_new_commands_it_continues)
 {
   scene s = flesh_begin();

@@ -141,7 +141,7 @@ START_TEST(a_squashed_gas_is_stepped_as_finely_as_it_needs)
     sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     double now = health.elastic_j + health.kinetic_j;
     ck_assert(health.finite);
-    /* The first tick has all of the burst; at the largest steps energy swings by what a step moves. */
+    /* The pressure acts in the first tick. At the largest steps, energy varies by the motion in a step. */
     ck_assert_msg(now < (i == 0 ? 1.05 : 1.5) * before, "tick %d: %g of %g J", i, now, before);
     ck_assert(i > 0 || now > 0.95 * before);
   }
@@ -189,7 +189,7 @@ START_TEST(maps_scale_the_pressure_face_by_face)
 }
 END_TEST
 
-/* It neither pushes itself away nor spins itself up, though all its faces are bent. */
+/* It neither accelerates nor rotates by itself, though all its faces are bent. */
 START_TEST(a_gas_conserves_momentum)
 {
   scene s = balloon(0, 800);
@@ -221,8 +221,8 @@ START_TEST(a_gas_conserves_momentum)
 }
 END_TEST
 
-/* A triangle that is held and one that hangs on it over their side, bent up at rest: its tip sinks until the
- * hinge bears its weight. */
+/* A fixed triangle and one that hangs on their shared edge, bent up at rest: its tip sinks until the hinge
+ * supports its weight. */
 START_TEST(a_sheet_bends_under_its_weight)
 {
   scene s = scene_begin();

@@ -1,4 +1,4 @@
-/* Flesh on bones that fall freely: it weighs nothing then, and keeps its shape at rest. */
+/* Flesh on bones in free fall: it is weightless, and has its rest shape. */
 #include <math.h>
 
 #include "harness.h"
@@ -56,7 +56,7 @@ static const struct {
     {0.2f, 0, 1, 0, SBF_SCHEME_HEUN, 64},
 };
 
-/* It had been off by 1 to 6 mm, and the bone turned by what the flesh pulled with. */
+/* It was off by 1 to 6 mm, and the flesh's pull rotated the bone. */
 START_TEST(it_keeps_its_shape)
 {
   enum { MAX = 256 };

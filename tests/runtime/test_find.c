@@ -11,8 +11,8 @@
 #include "skin_depth.h"
 #include "state/world.h"
 
-/* A soft bar, bent to a U that lies on its side: two legs, 8 cm apart; its lattice is of 18 x 2 x 2 cells,
- * its skin of 24 x 3 x 3 squares. */
+/* A soft bar, bent to a U that lies on its side: two legs, 8 cm apart. Its lattice has 18 x 2 x 2 cells, its
+ * skin 24 x 3 x 3 squares. */
 enum { LONG = 18, WIDE = 2, SKIN_LONG = 24, SKIN_WIDE = 3 };
 enum { SKIN_MAX = (SKIN_LONG + 1) * (SKIN_WIDE + 1) * (SKIN_WIDE + 1) };
 static const float LEG = 0.36f, THICK = 0.1f, GAP = 0.08f;
@@ -94,7 +94,7 @@ static void start(scene *s) {
   ck_assert(sbr_world_enable_body_contacts(s->world, 0, NULL) == SBF_OK);
 }
 
-/* ---- How deep skins lie in each other ---- */
+/* ---- Depth of skins in each other ---- */
 
 typedef struct placed_skin {
   sbf_vec3 at[SKIN_MAX];
@@ -121,7 +121,7 @@ static double deepest(const scene *s, const placed_skin *a, const placed_skin *b
   return max;
 }
 
-/* Of a skin in itself: looked at from just inside each vertex, where it is once inside by itself. */
+/* Depth of a skin within itself, tested just inside each vertex, where its winding number is 1. */
 static double deepest_in_itself(const scene *s, const placed_skin *skin) {
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
   static sbf_vec3 normals[SKIN_MAX];
@@ -164,7 +164,7 @@ START_TEST(a_skin_rests_on_itself)
 }
 END_TEST
 
-/* At rest nothing is near: a body that meets itself moves as one that does not. */
+/* At rest no faces are near each other: a body with self-collision moves like one without. */
 START_TEST(parts_separate_at_rest_get_no_impulses)
 {
   scene s = begin_bar(true, false, 3e4f);
@@ -176,7 +176,7 @@ START_TEST(parts_separate_at_rest_get_no_impulses)
 }
 END_TEST
 
-/* Three sections: two that touch at rest, and one apart. */
+/* Three sections: two touch at rest, and one is separate. */
 START_TEST(sections_in_contact_at_rest_stay_connected)
 {
   scene s = scene_begin();
@@ -240,7 +240,7 @@ START_TEST(skins_of_two_push_each_other_off)
 }
 END_TEST
 
-/* Put into each other by nine millimetres, they come apart. */
+/* Overlapping by nine millimetres, they separate. */
 START_TEST(parts_that_got_inside_separate)
 {
   sbr_character_id other;
@@ -250,14 +250,14 @@ START_TEST(parts_that_got_inside_separate)
   scene_ticks(&s, 120);
   one = skin_of(&s, s.character), two = skin_of(&s, other);
   ck_assert_double_le(deepest(&s, &one, &two), 5e-4);
-  ck_assert_double_le(contact_scene_fastest(&s, other), 0.25); /* no faster than they were let out */
+  ck_assert_double_le(contact_scene_fastest(&s, other), 0.25); /* no faster than the recovery speed */
   scene_free(&s);
 }
 END_TEST
 
-/* And by three or four centimetres, where no face is near: half of a leg is ten. Corners that are pressed
- * flat on the way from four leave the legs swinging by 0.4 to 0.7 m/s, as one begins; in 64 steps a tick by
- * 0.8. */
+/* They also separate from an overlap of three or four centimetres, where no face is near (half the thickness
+ * of a leg is ten). From four centimetres, corners are compressed flat on the way and leave the legs swinging
+ * at 0.4 to 0.7 m/s, as at the start; with 64 steps a tick, at 0.8. */
 START_TEST(parts_deep_inside_separate)
 {
   sbr_character_id other;
@@ -273,8 +273,8 @@ START_TEST(parts_deep_inside_separate)
 }
 END_TEST
 
-/* One lies on the ground, the other falls on it, straight or aslant: what that drove into each other is out
- * again. Only the faster of these blows goes deep however it hits. */
+/* One lies on the ground, the other falls on it, straight or tilted. Overlaps from the impact end. Only the
+ * faster of these impacts causes deep overlaps in every orientation. */
 START_TEST(characters_thrown_down_hard_separate)
 {
   static const float speeds_m_s[] = {15, 40};

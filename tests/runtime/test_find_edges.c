@@ -1,4 +1,4 @@
-/* Coarse bars, four faces round and with edges 10 cm long, that meet where neither has a vertex. */
+/* Coarse bars, four faces round and with edges 10 cm long, touch where neither has a vertex. */
 #include <math.h>
 
 #include "collision_scenes.h"
@@ -39,7 +39,7 @@ static void add_bar(scene *s, uint32_t body, const lies *to, float young_pa, boo
   scene_body(s, body)->attributes.damping_ratio = 0.3f;
 }
 
-/* Places of a body's vertices, from the second character on that character's. */
+/* Positions of a body's vertices; those of the second character in the second character's frame. */
 static void check(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MAX]) {
   sbr_double3 o = sbr_character_get_origin(s->world, who),
               own = sbr_character_get_origin(s->world, s->character);
@@ -106,8 +106,8 @@ static int ticks_until_hit(float height) {
   return (int)(60 * sqrtf(2 * height / 9.81f)) - 1;
 }
 
-/* The one is held at its ends; they are parts of one character. Whatever happens no edge goes in deeper than
- * `inner_thickness`, which is 1 cm, and nothing gives energy. */
+/* One bar is pinned at its ends. They are parts of one character. No edge penetrates deeper than
+ * `inner_thickness`, 1 cm, and contacts add no energy. */
 START_TEST(falling_crossed_bars_do_not_pass_through)
 {
   const drop *d = &drops[_i];
@@ -129,7 +129,7 @@ START_TEST(falling_crossed_bars_do_not_pass_through)
 }
 END_TEST
 
-/* For a second neither goes deeper into the other than 2 mm. */
+/* For a second, neither penetrates the other by more than 2 mm. */
 static void check_over_beam(scene *s, const sbf_polygon_mesh *hull, const sbf_vec3 *beam) {
   static sbf_vec3 at[MAX];
   double max = 0;
@@ -195,8 +195,8 @@ START_TEST(bars_that_fall_across_a_collider_do_not_pass_through)
 }
 END_TEST
 
-/* A box of the host's that is narrower than a bar's edges are long, and between its vertices: it lies there.
- */
+/* A host's box, narrower than the bar's edges are long, lies between its vertices: the bar comes to rest on
+ * it. */
 START_TEST(a_bar_rests_across_a_narrow_box)
 {
   scene s = rigid_begin();
@@ -220,8 +220,8 @@ END_TEST
 
 /* ---- Thrown ---- */
 
-/* Two characters in the air: what the one gets the other loses, angular momentum to 2e-4 of what is thrown,
- * as places slide on each other within a tick. */
+/* Two characters in the air: momentum is conserved, angular momentum within 2e-4 of its initial value,
+ * because contact points slide within a tick. */
 START_TEST(thrown_bars_conserve_momentum)
 {
   scene s = contact_scene_begin((sbf_vec3){0, 0, 0});

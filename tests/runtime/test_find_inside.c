@@ -10,7 +10,7 @@
 #include "skin_depth.h"
 #include "state/world.h"
 
-/* A capsule of eight sides: rings as far apart as it is thick, or further. */
+/* A capsule with eight sides. The distance of its rings is at least its thickness. */
 enum { SIDES = 8, MAX_RINGS = 24, MAX = SIDES * MAX_RINGS + 2, CELLS = 12 };
 static const float LENGTH = 0.6f;
 
@@ -66,7 +66,7 @@ static void check(const scene *s, sbr_character_id who, sbf_vec3 at[MAX]) {
     at[i] = (sbf_vec3){at[i].x + (float)o.x, at[i].y + (float)o.y, at[i].z + (float)o.z};
 }
 
-/* Sides of the one's polygons that go through polygons of the other. */
+/* Number of polygon edges of one that pass through polygons of the other. */
 static uint32_t crossings(const sbf_polygon_mesh *mesh, const sbf_vec3 *one, const sbf_vec3 *other) {
   uint32_t count = 0;
   const uint32_t *c = mesh->polygon_points.at;
@@ -125,7 +125,7 @@ START_TEST(crossed_thin_limbs_separate)
 }
 END_TEST
 
-/* ---- Rigid things in soft bodies ---- */
+/* ---- Rigid bodies inside soft bodies ---- */
 
 typedef struct pierced {
   uint32_t rings;
@@ -135,7 +135,7 @@ typedef struct pierced {
 static const pierced rods[] = {
     {9, 0.04f, {0.03f, 0.03f, 0.4f}, {0.02f, 0.004f, 0.05f}},  /* a rod through a limb */
     {7, 0.02f, {0.03f, 0.03f, 0.4f}, {0.03f, 0.004f, 0.02f}},  /* a thin limb without a vertex in it */
-    {22, 0.05f, {0.02f, 0.02f, 0.03f}, {0.07f, 0.01f, 0.01f}}, /* what a limb holds all around */
+    {22, 0.05f, {0.02f, 0.02f, 0.03f}, {0.07f, 0.01f, 0.01f}}, /* surrounded by a limb */
     {13, 0.03f, {0.2f, 0.2f, 0.02f}, {0.3f, 0, 0}},            /* a plate at the end of one */
 };
 
@@ -153,7 +153,7 @@ static bool box_holds(const scene *s, sbf_vec3 size, sbf_vec3 x) {
          fabsf(own.z) < 0.5f * size.z - slack;
 }
 
-/* Places of the box's edges in the skin, and of the skin's in the box, of many of each. */
+/* Numbers of sampled points of the box's edges inside the skin, and of the skin's edges inside the box. */
 static uint32_t places_inside(const scene *s, sbf_vec3 size) {
   enum { PLACES = 40 };
   static sbf_vec3 at[MAX];
@@ -175,7 +175,7 @@ static uint32_t places_inside(const scene *s, sbf_vec3 size) {
   return count;
 }
 
-/* Put there, as a soft body that is pushed over a rigid one: of one character, whose parts they are. */
+/* Placed there as if a soft body was pushed over a rigid one. Both are parts of one character. */
 START_TEST(rigid_bodies_leave_soft_bodies)
 {
   const pierced *r = &rods[_i];

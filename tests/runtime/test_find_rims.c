@@ -45,8 +45,8 @@ static void find_middle_line(const scene *s, uint32_t body, sbf_vec3 line[ROWS])
     line[r] = sbri_lerp(scene_point(s, body, 2 * r), scene_point(s, body, 2 * r + 1), 0.5f);
 }
 
-/* How far q is over p where they cross, seen from above; INFINITY where they do not. A line that goes on
- * beyond its ends would have any height there. */
+/* Height of q over p where they cross, seen from above; INFINITY where they do not cross. A line extended
+ * beyond its ends would give a wrong height. */
 static float height_over(const sbf_vec3 p[2], const sbf_vec3 q[2]) {
   sbf_vec3 along = sbri_sub(p[1], p[0]), other = sbri_sub(q[1], q[0]), off = sbri_sub(q[0], p[0]);
   float whole = along.x * other.z - along.z * other.x;
@@ -55,7 +55,7 @@ static float height_over(const sbf_vec3 p[2], const sbf_vec3 q[2]) {
   return sbri_lerp(q[0], q[1], u).y - sbri_lerp(p[0], p[1], t).y;
 }
 
-/* The least that the second is over the first, seen from above: any square of any. */
+/* Minimum height of the second over the first, seen from above, over all pairs of squares. */
 static float over(const scene *s) {
   sbf_vec3 p[ROWS], q[ROWS];
   find_middle_line(s, 0, p), find_middle_line(s, 1, q);
@@ -89,7 +89,7 @@ START_TEST(crossing_strips_do_not_pass)
 }
 END_TEST
 
-/* In the air: what the one gets the other loses. */
+/* In the air: momentum is conserved. */
 START_TEST(momentum_is_kept)
 {
   scene s = rigid_begin();

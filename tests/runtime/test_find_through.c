@@ -90,8 +90,7 @@ static scene begin_crosswise(const crosswise *at, sbr_tasks tasks, sbr_character
   return s;
 }
 
-/* At the speed that they are let out with, about 0.2 m/s, not thrown about, and with the momentum that they
- * had. */
+/* They separate at about 0.2 m/s, the recovery speed, without gaining speed or momentum. */
 START_TEST(crossed_bars_separate)
 {
   sbr_character_id other;
@@ -112,7 +111,7 @@ START_TEST(crossed_bars_separate)
 }
 END_TEST
 
-/* On any number of threads, and from a snapshot on the way, which holds the way. */
+/* The same bits for any number of threads, and from a snapshot taken meanwhile, which stores the path out. */
 START_TEST(separation_is_equal_on_threads_and_from_snapshots)
 {
   uint64_t hashes[2];
@@ -148,7 +147,7 @@ static scene begin_two_bars(sbf_vec3 off) {
   return s;
 }
 
-/* All of its points at once, from where they are. */
+/* Moves all of its points at once, from their present positions. */
 static void shift(const scene *s, uint32_t body, sbf_vec3 by) {
   sbri_character *c = sbri_character_of(s->world, s->character);
   const sbri_body *b = &c->model->bodies[body];
@@ -157,7 +156,7 @@ static void shift(const scene *s, uint32_t body, sbf_vec3 by) {
     points[slot].x += by.x, points[slot].y += by.y, points[slot].z += by.z;
 }
 
-/* Two that are apart at rest, put through each other: as two characters. */
+/* Two that are separate at rest, placed through each other: they separate like two characters. */
 START_TEST(interpenetrating_parts_of_one_body_separate)
 {
   static const sbf_vec3 put[3] = {{0, 0.005f, 0}, {0.11f, 0.03f, 0.06f}, {0.02f, -0.06f, 0.25f}};

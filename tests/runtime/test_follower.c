@@ -42,7 +42,7 @@ START_TEST(two_steps_are_one_of_twice_the_time)
       sbri_position_follower a, b;
       sbri_position_follower_reset(&a, sbri_vec3(0, 0, 0));
       b = a;
-      sbri_position_follower_tick(&a, sbri_vec3(1, -2, 0), &once); /* evenly there in 2 h */
+      sbri_position_follower_tick(&a, sbri_vec3(1, -2, 0), &once); /* reaches the target linearly in 2 h */
       sbri_position_follower_tick(&b, sbri_vec3(0.5f, -1, 0), &half);
       sbri_position_follower_tick(&b, sbri_vec3(1, -2, 0), &half);
       ck_assert_float_le(sbri_length(sbri_sub(a.value, b.value)), 1e-5f);
@@ -62,7 +62,7 @@ START_TEST(it_follows_even_motion_at_a_constant_distance)
   sbri_follower_step ahead = sbri_follower_step_of(2, 0.7f, 2, 1.0f / 60);
   sbri_position_follower_reset(&f, sbri_vec3(0, 0, 0));
   for (int i = 1; i <= 240; i++) sbri_position_follower_tick(&f, sbri_vec3((float)i / 60, 0, 0), &ahead);
-  ck_assert_float_eq_tol(f.value.x, 4, 1e-4f); /* r = 2: not late at all */
+  ck_assert_float_eq_tol(f.value.x, 4, 1e-4f); /* r = 2: no delay */
 }
 END_TEST
 

@@ -5,7 +5,7 @@
 #include "quadruped.h"
 #include "sbrun/terrain.h"
 
-/* What a ground was asked for. */
+/* The positions that a ground was queried for. */
 typedef struct asked {
   const gait_stage *walk;
   double farthest;
@@ -59,7 +59,7 @@ START_TEST(no_foot_steps_over_an_edge)
   float stopped = w.state->motion.position.z;
   w.input.forward = -0.3f;
   gait_stage_ticks(&w, 300);
-  ck_assert_float_lt(w.state->motion.position.z, stopped - 0.8f); /* back it can go */
+  ck_assert_float_lt(w.state->motion.position.z, stopped - 0.8f); /* it can move back */
   gait_stage_end(&w);
 }
 END_TEST
@@ -93,7 +93,7 @@ START_TEST(feet_and_body_tilt_with_the_ground)
     ck_assert_float_ge(sbri_dot(sbri_rotate(turned, up), wanted), 0.999f);
   }
   sbf_vec3 body = sbri_rotate(w.state->posture.root.rotation, up);
-  ck_assert_float_lt(body.x, -0.05f); /* it rolls to the same side, by its share */
+  ck_assert_float_lt(body.x, -0.05f); /* it rolls to the same side, by its fraction */
   gait_stage_end(&w);
 }
 END_TEST
@@ -132,12 +132,12 @@ START_TEST(steering_sees_no_farther_than_its_range)
     farthest[k] = a.farthest;
     gait_stage_end(&w);
   }
-  ck_assert_double_lt(farthest[0], farthest[1]);       /* the faster, the farther */
-  ck_assert_double_lt(farthest[1], 0.33 + 0.32 + 0.3); /* a home, a leg's length, and the way of a step */
+  ck_assert_double_lt(farthest[0], farthest[1]);       /* the faster, the farther ahead */
+  ck_assert_double_lt(farthest[1], 0.33 + 0.32 + 0.3); /* home, leg and step length */
 }
 END_TEST
 
-/* How deep any point of a sole is in the ground on its way, and at rest; m. */
+/* Maximum depth of any sole point in the ground, during a step and at rest; m. */
 static float deepest(const gait_stage *w) {
   float max = 0;
   for (int l = 0; l < 4; l++) {
@@ -149,7 +149,8 @@ static float deepest(const gait_stage *w) {
   return max;
 }
 
-/* Boards and a pole lie across the way, narrower than a step and higher than one is lifted by itself. */
+/* Boards and a pole lie across the path, narrower than a step and higher than a foot is lifted without
+ * them. */
 START_TEST(feet_clear_obstacles_in_between)
 {
   static const sbr_obstacle things[] = {
@@ -171,7 +172,7 @@ START_TEST(feet_clear_obstacles_in_between)
   }
   ck_assert_float_le(max, 1e-3f);
   ck_assert_float_gt(lift, 0.055f);
-  ck_assert_float_gt(w.state->motion.position.z, 2.5f); /* it has come by all of them */
+  ck_assert_float_gt(w.state->motion.position.z, 2.5f); /* it has passed all of them */
   gait_stage_end(&w);
 }
 END_TEST
@@ -195,7 +196,7 @@ START_TEST(a_wall_is_not_climbed)
 }
 END_TEST
 
-/* Walked on as on any other ground: a host that casts rays, triangles, heights. */
+/* Characters walk on grounds by ray casts, triangles and heights as on any other ground. */
 static double ray_down(void *user, sbr_double3 from, double length, sbf_vec3 *normal) {
   (void)user;
   double height = 0.15 * from.z, travel = from.y - height, unit = sqrt(1 + 0.15 * 0.15);

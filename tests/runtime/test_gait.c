@@ -44,7 +44,7 @@ static float length_between(const walk *w, uint32_t a, uint32_t b) {
   return sbri_length(sbri_sub(w->on.pose[a].position, w->on.pose[b].position));
 }
 
-/* One tick, and the measures that every walk is judged by. */
+/* Steps one tick and updates the measurements that all walks are checked by. */
 static void tick(walk *w) {
   sbri_gait_event events[16];
   w->events += sbri_gait_tick(&w->on.rig, w->on.state, &w->on.input, w->on.pose, events, 16);
@@ -305,7 +305,7 @@ START_TEST(the_same_speed_at_any_size)
   }
   for (int k = 1; k < 3; k++) {
     ck_assert_double_eq_tol(distance[k], distance[0], 0.2);
-    /* It takes smaller steps for its legs than its scale would have. */
+    /* It takes shorter steps because of its legs, not its scale. */
     ck_assert_double_lt(stride[k], 0.9 * (double)scales[k] * stride[0]);
   }
 }
@@ -362,7 +362,8 @@ START_TEST(a_taller_copy_walks_at_the_same_speed)
 }
 END_TEST
 
-/* Turning on the spot, more than twice round: what follows the heading goes on where it begins again. */
+/* Turns on the spot, more than twice round. Followers of the heading continue smoothly where the angle
+ * wraps. */
 START_TEST(nothing_jumps_where_headings_wrap_around)
 {
   walk w;
@@ -382,7 +383,7 @@ START_TEST(nothing_jumps_where_headings_wrap_around)
 }
 END_TEST
 
-/* A foot within its margin steps home by itself; one farther off is there at once. */
+/* A foot within its margin steps home by itself. One farther away is placed home at once. */
 START_TEST(a_foot_beyond_its_margin_is_placed_again)
 {
   for (int far = 0; far < 2; far++) {
@@ -424,7 +425,7 @@ START_TEST(large_bodies_reach_their_speed_and_keep_it)
   for (int t = 0; t < 360; t++) {
     double before = sbri_gait_distance(w.on.state);
     gait_stage_ticks(&w.on, 1);
-    for (int i = 0; i < 4; i++) { /* a step that begins in the start ends sooner than it was meant to */
+    for (int i = 0; i < 4; i++) { /* the step during the start ends earlier than planned */
       const sbri_foot *foot = &w.on.state->feet[i];
       if (foot->planted) begun[i] = 0;
       if (!foot->planted && begun[i] == 0) begun[i] = foot->step.duration_s;

@@ -5,7 +5,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The normal that the heights around a place make. */
+/* The normal from the heights around a position. */
 static sbf_vec3 slope_normal(const sbr_ground *g, double x, double z) {
   const double d = 1e-5;
   double sx = (sbri_ground_height(g, x + d, z, NULL) - sbri_ground_height(g, x - d, z, NULL)) / (2 * d);

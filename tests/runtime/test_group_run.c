@@ -210,7 +210,7 @@ static void cube(scene *s, uint32_t body, sbf_vec3 low, float side, float densit
   lattice_box_free(&box);
 }
 
-/* Least and most height of a body's points, relative to the character's origin. */
+/* Minimum and maximum height of a body's points, relative to the character's origin. */
 static void heights(const scene *s, uint32_t body, float *min, float *max) {
   static sbf_vec3 at[512];
   uint32_t count = scene_read(s, body, at, 512);
@@ -292,8 +292,8 @@ START_TEST(snapshots_store_contact_impulses)
 }
 END_TEST
 
-/* At 60 m/s they are crushed within a tick, and need shorter steps in that: else they would lose their shape
- * for good and be put back into it. */
+/* At 60 m/s they are compressed flat within a tick and need shorter steps. Otherwise they would lose their
+ * shape and be put back into the rest shape. */
 START_TEST(soft_cubes_of_two_characters_conserve_momentum)
 {
   const float speeds[3] = {2, 40, 60}, thrown = speeds[_i];

@@ -1,6 +1,6 @@
-/* What is hard on a scheme that steps tetrahedra, and regions that match shapes: next to no volume change, a
- * point ten thousand times as heavy as its neighbours, a world that comes a quarter of a second late and
- * early by turns, a place that jumps, matter as stiff as steel is soft; in every scheme that takes it. */
+/* Hard cases for schemes that step tetrahedra, and for regions that match shapes: almost no change of volume,
+ * a point ten thousand times as heavy as its neighbours, frames that alternate between a quarter of a second
+ * and almost none, a jump of the position, and matter as stiff as steel; in every scheme that supports it. */
 #include "harness.h"
 #include "scenes.h"
 #include "state/state.h"

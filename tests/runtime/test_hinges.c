@@ -69,9 +69,9 @@ static scene cotton(bool pinned, float damping_ratio) {
   return s;
 }
 
-/* A free square plate's lowest mode turns its corners against each other: w = 13.5 sqrt(D / (m L^2)) with nu
- * = 0.3 (Leissa, Vibration of Plates, 1969). Hinges know no Poisson's ratio and polynomials bound from above.
- */
+/* A free square plate's lowest mode twists its corners against each other: w = 13.5 sqrt(D / (m L^2)) with nu
+ * = 0.3 (Leissa, Vibration of Plates, 1969). Hinges have no Poisson's ratio, and polynomials give an upper
+ * bound. */
 START_TEST(the_lowest_mode_bends)
 {
   scene s = cotton(false, 0.1f);
@@ -97,8 +97,8 @@ START_TEST(cloth_does_not_fall_through_honey)
 }
 END_TEST
 
-/* Without weight: the held edge is lifted by 0.4 m in a sixth of a second, the free one stays back. Flesh
- * goes along with its bone where it would sway farther than it can bear; a sheet bears any. */
+/* Without weight: the pinned edge is lifted by 0.4 m in a sixth of a second, the free edge lags behind. Flesh
+ * follows its bone where its strain would become too large; a sheet may bend freely. */
 START_TEST(cloth_stays_behind_its_bone)
 {
   static const float times[2] = {0, 1 / 6.0f}, values[6] = {0, 0, 0, 0, 0.4f, 0};

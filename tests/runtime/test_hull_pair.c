@@ -92,7 +92,7 @@ START_TEST(crossing_edges_have_one_contact)
 }
 END_TEST
 
-/* The gap that is found is the least way out: moved by it along the normal, they just touch. */
+/* The measured gap is the shortest separation: moved by it along the normal, the hulls just touch. */
 START_TEST(the_penetration_is_the_smallest_separating_distance)
 {
   sbfi_arena arena;

@@ -1,4 +1,4 @@
-/* Hulls of points: everything inside, everything convex, closed, and what encloses nothing is said. */
+/* Hulls of points: they contain every point, are convex and closed. Flat point sets are reported. */
 #include "shapes/hull_points.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static sbri_point_hull hull_of(uint32_t count, sbfi_arena *arena) {
   return hull;
 }
 
-/* Of a side: how far outside of it a place is, m, in double precision. */
+/* Distance of a point outside a side's plane, m, in double precision. */
 static double outside_of(const sbri_point_hull *hull, uint32_t side, sbf_vec3 x) {
   double p[3][3], n[3], size;
   for (int i = 0; i < 3; i++) {
@@ -42,8 +42,8 @@ static double outside_of(const sbri_point_hull *hull, uint32_t side, sbf_vec3 x)
          size;
 }
 
-/* Every edge has its other side; no vertex lies outside of any side by more than doubles round, no given
- * point by more than `within`. */
+/* Every edge has its opposite. No vertex is outside any side by more than double rounding, no input point by
+ * more than `within`. */
 static void expect_around(const sbri_point_hull *hull, uint32_t count, double size, double within) {
   ck_assert_uint_eq(hull->triangle_count, 2 * hull->vertex_count - 4);
   for (uint32_t s = 0; s < hull->triangle_count; s++) {
@@ -137,9 +137,9 @@ START_TEST(flat_point_sets_have_no_hull)
 }
 END_TEST
 
-/* Boxes askew with faces and rims ragged by a tenth of a micrometre to a millimetre: sides are long and
- * narrow, some swallow vertices that were on the hull before, and in float alone their planes would tilt.
- * None of the shape's planes cuts off a vertex of it. */
+/* Tilted boxes with faces and edges roughened by a tenth of a micrometre to a millimetre: sides are long and
+ * narrow, some remove earlier hull vertices, and their planes would tilt in single precision. No plane of the
+ * shape cuts off a vertex of it. */
 static void expect_ragged(uint32_t seed) {
   sbr_shape_definition d = sbr_default_shape_definition();
   sbr_shape *shape = NULL;

@@ -1,4 +1,4 @@
-/* Rigid bodies that go so fast that they are through each other within a tick. */
+/* Fast rigid bodies that would pass through each other within a tick. */
 #include <math.h>
 
 #include "collision_scenes.h"
@@ -31,9 +31,9 @@ static sbf_vec3 off_plate(const scene *s) {
       sbri_quat_conjugate(plate->pose.rotation), sbri_sub(box->pose.position, plate->pose.position));
 }
 
-/* From ten distances, so that it is anywhere on its way at the tick's ends; straight, and askew so that it is
- * not over the plate when the tick begins. It stays on its side while it is over it, and what it loses the
- * plate has. */
+/* Starts from ten distances, so that ticks end at different points of the path, straight or tilted so that it
+ * is not over the plate when the tick begins. It stays on its side while it is over the plate, and the plate
+ * receives the momentum that it loses. */
 START_TEST(a_fast_box_does_not_pass_a_thin_plate)
 {
   float back = 2 + 0.17f * (float)(_i % 10), aside = _i < 10 ? 0 : 0.4f * back;

@@ -1,4 +1,4 @@
-/* Targets for limbs as a host gives them: in the world, by the chain's number, until they are taken away. */
+/* Targets for limbs that a host sets: in world coordinates, by chain index, until they are removed. */
 #include "harness.h"
 #include "math/vec3.h"
 #include "quadruped.h"
@@ -15,7 +15,7 @@ typedef struct walker {
   sbr_character_id character;
 } walker;
 
-/* Far from the world's origin, where a target that is not taken from there would lie elsewhere. */
+/* Far from the world's origin. An error in the frame of the target would be obvious. */
 static const sbr_double3 position = {100, 0, -40};
 
 static walker begin(void) {

@@ -46,14 +46,14 @@ static found check(const sbri_island *island, uint32_t begin, uint32_t end, uint
         marks[slot] = b + 1;
       }
     }
-    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) /* what inert lanes write to moves with no other one */
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) /* inactive lanes write to unused slots */
       if (is_inert(block, lane) && block->corners[0][lane] < island->free_count)
         ck_assert_uint_ne(marks[block->corners[0][lane]], b + 1);
   }
   return f;
 }
 
-/* What forces go through, and what sweeps do: each element once; sweeps share no free point in a block. */
+/* Forces and sweeps visit each element once. In a sweep, elements of a block share no free point. */
 START_TEST(blocks_contain_each_tetrahedron_once)
 {
   scene s = scene_begin();

@@ -60,7 +60,7 @@ START_TEST(springs_between_levels_that_are_not_simulated_do_nothing)
 }
 END_TEST
 
-/* A load does not see it: which points there are is a matter of the levels named. */
+/* Loads do not depend on it: the named levels determine the points. */
 START_TEST(springs_to_missing_points_are_refused)
 {
   for (int end = 0; end < 2; end++) {
@@ -73,7 +73,7 @@ START_TEST(springs_to_missing_points_are_refused)
     ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_BAD_INPUT);
     ck_assert_int_eq(error.code, SBF_CODE_CROSS_SPRING_POINT);
     ck_assert_ptr_nonnull(strstr(error.message, "1000000"));
-    cross->level_b = 1; /* nothing is required of levels that are not simulated */
+    cross->level_b = 1; /* levels that are not simulated need not be valid */
     scene_start(&s);
     scene_free(&s);
   }

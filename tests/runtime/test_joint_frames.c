@@ -33,7 +33,7 @@ static sbr_transform moved(const sbr_transform *pose, int direction, float by) {
   return to;
 }
 
-/* Rates are what small motions of either body do to the coordinates. */
+/* The rates equal the change of the coordinates under small motions of either body. */
 START_TEST(rates_are_differences)
 {
   uint32_t seed = 7;

@@ -50,7 +50,8 @@ static float angular_velocity(const scene *s) {
   return rigid_state(s, ARM).angular_velocity.z;
 }
 
-/* From turn to turn the weight's work is what friction takes: cos b - cos a = friction (a + b). */
+/* From one turning point to the next, friction takes the work of the weight: cos b - cos a = friction (a +
+ * b). */
 START_TEST(friction_shortens_each_swing)
 {
   scene s = arm_of(_i, 0.6f, FRICTION);
@@ -90,9 +91,8 @@ START_TEST(friction_carries_loads_up_to_its_bound)
 }
 END_TEST
 
-/* Turned without weight it slows down evenly by a = torque / moment and stands where that has used up its
- * speed, after w^2 / 2a: beyond that by less than a step's way at the speed that it began with, however many
- * steps. There it stays. */
+/* Turned without weight, it slows down uniformly by a = torque / moment and stops after w^2 / 2a, within the
+ * distance of one step at the initial speed, for any number of steps. It then stays there. */
 START_TEST(a_rotating_body_decelerates_evenly)
 {
   const uint32_t steps[4] = {4, 8, 16, 64};

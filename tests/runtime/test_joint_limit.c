@@ -84,7 +84,7 @@ START_TEST(the_nearer_bound_is_used_across_half_a_rotation)
 }
 END_TEST
 
-/* Near bounds too, where it must not say more than the angles do. */
+/* Also near limits, where it must not exceed the angles' own excess. */
 START_TEST(precomputed_bounds_do_not_change_results)
 {
   uint32_t seed = 4;
@@ -118,7 +118,8 @@ static void expect_swing(const sbri_joint_limit *limit, float y, float z, float 
   ck_assert_float_eq_tol(p.twist, 0.1f, 2e-5f);
 }
 
-/* Bounds of the swings that leave out 0: the box holds where a narrower cone would lead out of it. */
+/* A box of swing limits that excludes 0: the result stays in the box, even where a narrower cone would leave
+ * it. */
 START_TEST(a_box_without_zero_wins_over_the_cone)
 {
   sbri_joint_limit limit = {.before = {0, 0, 0, 1},

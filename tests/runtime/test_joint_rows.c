@@ -1,4 +1,4 @@
-/* Each kind of joint against what mechanics says of it in closed form. */
+/* Each kind of joint against closed forms of mechanics. */
 #include <math.h>
 
 #include "harness.h"
@@ -177,7 +177,7 @@ START_TEST(a_fixed_body_stays)
 }
 END_TEST
 
-/* A rod of the length that it has, and a rope that is taut only at its greatest. */
+/* A rod with its given length, and a rope that is taut only at its maximum length. */
 START_TEST(a_distance_is_kept_or_limited)
 {
   scene s = begin();
@@ -227,7 +227,7 @@ START_TEST(a_pulley_is_atwoods_machine)
 }
 END_TEST
 
-/* All six free: it falls; with a limit of no width it is a hinge. */
+/* All six axes free: it falls. With a limit of zero width it is a hinge. */
 START_TEST(six_freedoms)
 {
   scene s = begin();
@@ -248,7 +248,7 @@ END_TEST
 
 /* ---- Limits and drives ---- */
 
-/* A level arm falls onto its limit and lies there; run against it hard, it is never beyond by a degree. */
+/* A level arm falls onto its limit and rests there. Even a fast impact never exceeds it by a degree. */
 START_TEST(limits_are_respected)
 {
   scene s = begin();
@@ -296,7 +296,7 @@ START_TEST(a_hinge_rotates_beyond_half_a_rotation)
 }
 END_TEST
 
-/* A weight on a limit's spring: m g / k beyond the bound, and it never pulls. */
+/* A weight on a soft limit: it rests m g / k beyond the bound, and the spring never pulls. */
 START_TEST(a_limit_spring_yields)
 {
   scene s = begin();

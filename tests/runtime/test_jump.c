@@ -1,4 +1,4 @@
-/* Bodies whose pins jump against each other in one tick, by more than a cell. */
+/* Bodies whose pins jump relative to each other in one tick, by more than a cell. */
 #include <math.h>
 
 #include "harness.h"
@@ -114,8 +114,8 @@ static const jump jumps[] = {
     {{0, 0.5f, 0}, 2e4f, 0.3f, SBF_SCHEME_BLOCK_DESCENT, AND_BACK},
 };
 
-/* What it comes to rest in is what the same motion leads to when it is slow. A bar pushed together to a third
- * of its length in one tick held 1.8 times as much energy for good. */
+/* Its final rest shape equals that of the same motion done slowly. A bar pushed together to a third of its
+ * length in one tick retained 1.8 times as much energy permanently. */
 START_TEST(a_jump_by_cells_leaves_nothing_crushed)
 {
   jump j = jumps[_i], slow = j;
@@ -129,7 +129,7 @@ START_TEST(a_jump_by_cells_leaves_nothing_crushed)
 }
 END_TEST
 
-/* Ends pushed together until a quarter of the bar is left: no shape there is without crushed elements. */
+/* Ends pushed together until a quarter of the bar is left: every possible shape has compressed elements. */
 START_TEST(crushed_bodies_are_reported)
 {
   jump j = {{-0.45f, 0, 0}, 2e4f, 0.3f, SBF_SCHEME_AUTOMATIC, AT_ONCE};
@@ -139,8 +139,8 @@ START_TEST(crushed_bodies_are_reported)
 }
 END_TEST
 
-/* Flesh that falls so fast that it is pressed through itself comes back, though its weight might strain it by
- * as much energy: in flight it stayed crushed for seconds. */
+/* Flesh that falls so fast that it inverts recovers, though its weight alone could strain it by as much
+ * energy. In flight it stayed compressed for seconds. */
 START_TEST(bodies_crushed_by_a_fall_recover)
 {
   static const double heights_m[] = {1, 3, 8, 15};

@@ -9,9 +9,9 @@
 
 enum { BODIES = 4, CELLS = 4, TICKS = 150 };
 
-/* Falls onto the ground, slides and swings there: a section held by a bone, one with damped springs, and one
- * that nothing holds; and tetrahedra held at one end with damping of their own: every branch of the kernel.
- */
+/* Each falls onto the ground, slides and swings: a section pinned to a bone, one with damped springs, one
+ * without pins, and tetrahedra pinned at one end with their own damping. Together they cover every branch of
+ * the kernel. */
 static scene make_scene(void) {
   scene s = scene_begin();
   scene_bodies(&s, BODIES);
@@ -48,7 +48,7 @@ static uint64_t hash_after(sbr_instructions instructions, bool pinned, sbf_schem
   for (uint32_t b = 0; b < s.asset->soft_bodies.count; b++) {
     sbr_body_health health = sbr_character_get_body_health(s.world, s.character, b);
     ck_assert(health.finite);
-    if (scheme == SBF_SCHEME_EXPLICIT_EULER) continue; /* it does not hold such a body */
+    if (scheme == SBF_SCHEME_EXPLICIT_EULER) continue; /* this kernel does not step such a body */
     ck_assert_uint_eq(health.recoveries, 0);
     ck_assert_float_gt(health.max_strain, 1e-4f); /* they do move */
   }

@@ -6,10 +6,11 @@
 #include "quadruped.h"
 
 static const float TICK_S = 1.0f / 60, DEGREES = 57.2957795f;
-static const float MAX = 4.6f; /* degrees that a knee's turn in a tick changes by in the next */
+/* Maximum change of a knee's rotation per tick from one tick to the next, degrees. */
+static const float MAX = 4.6f;
 
-/* Greatest change of a knee's turn from tick to tick as it goes after `wanted` for so many ticks; the knee is
- * left where it came to. */
+/* Maximum change of a knee's rotation per tick while it follows `wanted` for the given number of ticks. The
+ * knee stays as it ends. */
 static float follow(sbri_foot *foot, float (*wanted)(int), int count) {
   float max = 0, before = foot->knee.rate;
   for (int i = 0; i < count; i++) {
@@ -62,7 +63,7 @@ END_TEST
 START_TEST(a_knee_comes_to_rest_where_the_leg_is_straight)
 {
   sbri_foot foot = at_rest(2);
-  ck_assert_float_le(follow(&foot, snaps_straight, 60), MAX + 0.5f); /* its own start is as abrupt */
+  ck_assert_float_le(follow(&foot, snaps_straight, 60), MAX + 0.5f); /* the first tick has the same jump */
   ck_assert_float_eq_tol(foot.knee.angle, 3.14159265f, 1e-4f);
 }
 END_TEST
@@ -97,7 +98,7 @@ START_TEST(a_planted_leg_stops_before_it_is_straight)
     max = fmaxf(max, fabsf(foot.knee.rate - before) * TICK_S * DEGREES);
     before = foot.knee.rate;
   }
-  ck_assert_float_le(max, MAX + 0.2f); /* single precision says little of a leg that is nearly straight */
+  ck_assert_float_le(max, MAX + 0.2f); /* single precision is inaccurate for a leg that is nearly straight */
   ck_assert_float_eq_tol(foot.knee.angle, 3.14159265f, 0.02f);
   foot.knee.rate = 10, foot.knee.known_ticks = 1;
   ck_assert(!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest));

@@ -40,7 +40,7 @@ static scene box_with_level(uint32_t *corners_used) {
   return s;
 }
 
-/* Each of the level's vertices is, bit for bit, where the full skin has it. */
+/* Each vertex of the level has the same bits as in the full skin. */
 static void expect_same(const scene *s, const uint32_t *point_of) {
   enum { MAX = 64 };
   sbf_vec3 full[MAX], few[MAX], normals[MAX];
@@ -118,7 +118,8 @@ START_TEST(skinned_as_the_full_mesh_is)
 }
 END_TEST
 
-/* A level's corners have the normals and coordinates of those they name: hard edges, and tangents. */
+/* A level's corners have the normals and texture coordinates of the corners that they name, with hard edges
+ * and tangents. */
 START_TEST(level_corners_have_normals_and_uvs_of_the_mesh)
 {
   uint32_t point_of[8];
@@ -140,7 +141,7 @@ START_TEST(level_corners_have_normals_and_uvs_of_the_mesh)
     sbf_vec3 p = mesh->mesh.positions.at[mesh->mesh.polygon_points.at[c]];
     coordinates[c] = (sbf_vec2){p.z, p.y}; /* on the two sides across x, u runs along z */
   }
-  /* Of the corners at the point that one which faces as the level's triangle does. */
+  /* Of the corners at the point, the one that faces like the level's triangle. */
   for (uint32_t i = 0; i < 36; i++) {
     const uint32_t *t = level->polygon_points.at + i / 3 * 3;
     const sbf_vec3 *at = mesh->mesh.positions.at;

@@ -32,7 +32,7 @@ START_TEST(a_level_fails_above_an_error_of_a_quarter_of_its_body)
   ck_assert(!sbri_level_has_failed(&level, 2) && sbri_level_is_useful(&level, 2));
   level.simulation.error = 0.51f;
   ck_assert(sbri_level_has_failed(&level, 2) && !sbri_level_is_useful(&level, 2));
-  level.simulation.motion_error = 0.9f; /* it was seen to move so: that stands */
+  level.simulation.motion_error = 0.9f; /* its motion was measured so: the value stays */
   ck_assert(!sbri_level_has_failed(&level, 2) && sbri_level_is_useful(&level, 2));
 }
 END_TEST

@@ -38,7 +38,7 @@ START_TEST(a_leg_is_kept_within_its_limits)
   gait_stage s;
   gait_stage_begin(&s, quadruped_asset());
   sbri_joint_limit *limits = (sbri_joint_limit *)(uintptr_t)s.rig.bones.limits;
-  for (int b = 8; b < 10; b++) /* thigh and shin: no more than 0.05 rad from rest */
+  for (int b = 8; b < 10; b++) /* thigh and shin: at most 0.05 rad from rest */
     limits[b] = (sbri_joint_limit){.before = {0, 0, 0, 1},
         .after = {0, 0, 0, 1},
         .twist = {-0.05f, 0.05f},
@@ -65,7 +65,7 @@ START_TEST(rotating_about_a_foot_keeps_its_position)
   sbf_vec3 arm = sbri_sub(s.state->motion.position, foot);
   for (int i = 0; i < 300; i++) {
     gait_stage_ticks(&s, 1);
-    /* The body goes round the foot as far as it turns. */
+    /* The body orbits the foot by the angle of its heading. */
     sbf_vec3 now = sbri_sub(s.state->motion.position, foot);
     sbf_vec3 round = sbri_rotate(sbri_quat_about(sbri_vec3(0, 1, 0), s.state->motion.heading), arm);
     ck_assert_float_eq_tol(now.x, round.x, 0.02f * sbri_length(arm));

@@ -4,7 +4,7 @@
 #include "harness.h"
 #include "math/quat.h"
 
-static const float TICK_S = 1.0f / 60, MAX = 4.6f * 3.14159265f / 180; /* rad a tick in a tick */
+static const float TICK_S = 1.0f / 60, MAX = 4.6f * 3.14159265f / 180; /* of rad per tick, in a tick */
 
 /* A leg of two bones of 1 m, its hip 1 m up, and a foot 0.8 m high that stands upright before it on its toe.
  */
@@ -19,7 +19,7 @@ static sbri_foot standing(void) {
   return (sbri_foot){.planted = 1, .frame = {.rotation = {0, 0, 0, 1}}, .normal = {0, 1, 0}};
 }
 
-/* The ankle of a foot that stands `ahead` of the hip; its `tilt` becomes how it leans. */
+/* Ankle position of a foot that stands `ahead` of the hip; its `tilt` receives the foot's pitch. */
 static sbf_vec3 lean_ahead(
     const sbri_leg *leg, sbri_foot *foot, float ahead, float scale, sbri_advance advance) {
   const sbri_gait_input input = {.tick_s = TICK_S, .scale = scale};
@@ -52,7 +52,7 @@ START_TEST(the_foot_takes_half_of_the_leg_s_stretch_or_bend)
       sbf_vec3 ankle = lean_ahead(&leg, &foot, ahead, scale, SBRI_ADVANCE_RESET);
       float upright = from_hip(sbri_vec3(0, 0.9f * scale, ahead * scale), scale);
       ck_assert_float_eq_tol(from_hip(ankle, scale), 0.5f * (upright + 1.4f * scale), 1e-4f);
-      /* On its toe, as long as it is, turned as its ankle has gone. */
+      /* It stands on its toe at its own length, rotated with its ankle. */
       sbf_vec3 toe = sbri_scale(sbri_vec3(0, 0.1f, ahead), scale), is = sbri_sub(ankle, toe);
       ck_assert_float_eq_tol(sbri_length(is), 0.8f * scale, 1e-4f);
       sbf_vec3 turned = sbri_rotate(foot.frame.tilt, sbri_vec3(0, 0.8f * scale, 0));

@@ -1,5 +1,5 @@
-/* Every kind of force of soft bodies that two simulated boxes hold, one of them hit off its middle: what the
- * soft body's points gain, the boxes lose, in linear and in angular momentum. SHOW_MOMENTUM in the
+/* Every kind of soft-body force between two simulated boxes, one of which receives an off-centre impulse: the
+ * boxes lose the momentum, linear and angular, that the soft body's points gain. SHOW_MOMENTUM in the
  * environment prints the table of docs/rigid.md. */
 #include "momentum.h"
 
@@ -52,7 +52,8 @@ static sbf_level *grid_tetrahedra(scene *s) {
   return level;
 }
 
-/* Triangles over the six sides, outwards, of all that is `from` points and more from the first box. */
+/* Triangles over the six sides, facing outwards, of all points from `from` on, or from the first box if
+ * more. */
 static void grid_surface(scene *s, const sbf_level *level, uint32_t from) {
   const uint32_t cells[3] = {LONG - 1 - from, WIDE - 1, WIDE - 1};
   uint32_t count = 0, *corners = sbf_asset_allocate(s->asset, 6 * 6 * 64, sizeof *corners),
@@ -81,13 +82,13 @@ typedef struct kind {
   const char *name;
   elastic model;
   bool surface, alone; /* alone: pinned to one box, which carries it */
-  bool hung;           /* the first box holds nothing of the surface */
+  bool hung;           /* the first box pins no point of the surface */
   sbf_pressure_mode pressure;
   float pa, limit, yield, tear, goal, damping, times;
   float keeps_m; /* the surface collides with itself, at that thickness or at 0.9 of its separation at rest */
   float box_kg;  /* 0: BOX_KG */
   sbf_scheme scheme;
-  double linear, angular; /* that may be lost or gained, as shares; 0: LINEAR and ANGULAR */
+  double linear, angular; /* maximum momentum lost or gained, as fractions; 0: LINEAR and ANGULAR */
 } kind;
 
 static const double LINEAR = 1e-6, ANGULAR = 2e-6;
@@ -203,7 +204,7 @@ static const kind kinds[] = {
         .keeps_m = 0.2f,
         .times = 3,
         .box_kg = 0.02f},
-    /* Whose forces are not those of a step's begin: */
+    /* Schemes whose forces are not evaluated at the start of a step: */
     {.name = "heun", .model = SPRINGS, .scheme = SBF_SCHEME_HEUN, .linear = 1e-3, .angular = 1e-3},
     {.name = "swept springs",
         .model = SPRINGS,
@@ -227,7 +228,7 @@ static const kind kinds[] = {
         .angular = 4e-3},
 };
 
-/* How many times the usual. */
+/* Multiple of the default. */
 static float hit(scene *s, const kind *is) {
   float times = is->times > 0 ? is->times : 1;
   float kg = kg_of(is);

@@ -212,7 +212,8 @@ static double stairs(const sbr_ground *ground, double x, double z, sbf_vec3 *nor
   return ground->parameters[0] * floor(z / (3 * ground->parameters[0]) + 0.5);
 }
 
-/* Straight up stairs and in a circle, up, along and down: its joints keep their distances and their speed. */
+/* Straight up stairs, and in a circle along, up and down: its joints stay connected, and it keeps its
+ * speed. */
 START_TEST(a_snake_crosses_edges_without_jumps)
 {
   static const double STEP = 0.1;
@@ -336,7 +337,7 @@ START_TEST(links_end_at_the_next_link)
   while (sbri_gait_distance(s.state) < 2 * 2.39) gait_stage_ticks(&s, 1); /* nearly all of the loop of 2.4 */
   double left = 2 * 2.4 - sbri_gait_distance(s.state);
   sbf_vec3 root = s.state->motion.position, at = sbri_sub(s.pose[5].position, root);
-  /* Link 0 comes back to its place along the floor, from the front. */
+  /* Link 0 returns to its position along the floor, from the front. */
   ck_assert_double_eq_tol((double)at.x, 1, 1e-4);
   ck_assert_double_eq_tol((double)at.y, 0, 1e-3);
   ck_assert_double_eq_tol((double)at.z, -0.6 + left, 2e-3);

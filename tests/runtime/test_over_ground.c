@@ -10,7 +10,7 @@ START_TEST(angles_are_wrapped_into_one_rotation)
   for (int turns = -3; turns <= 3; turns++)
     for (float angle = -3.1f; angle < 3.14f; angle += 0.31f)
       ck_assert_float_eq_tol(sbri_wrap_angle(angle + 2 * PI * (float)turns), angle, 1e-5f);
-  ck_assert_float_eq(sbri_wrap_angle(PI), PI); /* the one end belongs to it, the other does not */
+  ck_assert_float_eq(sbri_wrap_angle(PI), PI); /* a cell includes one of its ends, not the other */
   ck_assert_float_eq(sbri_wrap_angle(-PI), PI);
 }
 END_TEST

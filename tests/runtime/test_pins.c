@@ -133,7 +133,7 @@ START_TEST(pins_without_a_bone_fix_points_at_the_initial_position)
 }
 END_TEST
 
-/* A row of points between two bones' ends: guides go from all of one to all of the other. */
+/* A row of points between two bones' ends: their pin frames blend from one bone to the other. */
 START_TEST(drivers_blend_between_the_pinning_bones)
 {
   scene s = scene_begin();

@@ -50,7 +50,7 @@ START_TEST(preload_balances_the_stated_gravity)
   ck_assert_double_lt(moved(&s), 5e-4);
   scene_free(&s);
   s = section(true);
-  s.world_definition.has_gravity = true; /* made for the asset's, put into none */
+  s.world_definition.has_gravity = true; /* the preload assumes the asset's gravity */
   s.world_definition.gravity = (sbf_vec3){0, 0, 0};
   scene_start(&s);
   ck_assert_double_gt(moved(&s), 3e-3);

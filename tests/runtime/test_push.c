@@ -1,4 +1,4 @@
-/* Blows of soft bodies on each other: how deep they drive them, and where to. */
+/* Impacts of soft bodies on each other: how deep and where they penetrate. */
 #include <math.h>
 
 #include "contact_scenes.h"
@@ -60,7 +60,7 @@ static double aside_of(const placed *lower, const placed *upper) {
   return hypot((double)(upper->middle.x - lower->middle.x), (double)(upper->middle.z - lower->middle.z));
 }
 
-/* What presses in is met as it does, so that faces are near and none looks for a way out. */
+/* Contacts prevent deep penetration from the start: faces are near, and no point searches for a way out. */
 START_TEST(fast_bodies_penetrate_no_deeper_than_the_face_search)
 {
   double height = _i + 1, max = 0, aside = 0;
@@ -81,7 +81,7 @@ START_TEST(fast_bodies_penetrate_no_deeper_than_the_face_search)
 }
 END_TEST
 
-/* Of flesh that swings out at once: nothing throws the upper one off. */
+/* Flesh that recovers its shape at once does not throw the upper one off. */
 START_TEST(cubes_that_fall_on_each_other_stand)
 {
   sbr_character_id upper;

@@ -128,7 +128,7 @@ START_TEST(boxes_and_capsules_are_cast)
       cast(world, pill, (sbr_double3){4, 5, 0}, (sbf_vec3){0, -1, 0}, &hit), 3.75, EXACT_M);
   ck_assert_double_eq_tol(
       cast(world, pill, (sbr_double3){0, 0, 0}, (sbf_vec3){1, 0, 0}, &hit), 3.25, EXACT_M);
-  /* An overlap at the beginning counts at once; what moves away hits nothing. */
+  /* A shape that overlaps at the start hits at once. One that moves away hits nothing. */
   ck_assert(cast(world, pill, (sbr_double3){3.6, 0, 0}, (sbf_vec3){-1, 0, 0}, &hit) == 0);
   ck_assert_float_eq_tol(hit.normal.x, 1, 1e-6f);
   ck_assert_double_lt(cast(world, pill, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, &hit), 0);

@@ -7,8 +7,8 @@ enum { SECONDS = 15, TICKS = 60 * SECONDS };
 static const float pull = 9.81f;
 static const float scales[] = {1, 0.01f, 0.3f}, bounds[] = {2e-4f, 2e-3f, 6e-4f};
 
-/* A loose bar that falls sideways for a kilometre, whatever its size: its middle is where it should be, and
- * no digits that it lost on the way strain it. */
+/* A loose bar of any size falls sideways for a kilometre. Its middle is where it should be, and rounding on
+ * the way does not strain it. */
 START_TEST(bodies_that_fly_far_keep_their_shape)
 {
   scene s = scene_begin();
@@ -27,7 +27,7 @@ START_TEST(bodies_that_fly_far_keep_their_shape)
     scene_ticks(&s, 1);
     max = fmaxf(max, sbr_character_get_body_health(s.world, s.character, 0).max_strain);
   }
-  ck_assert_float_le(max, bounds[_i]); /* a centimetre at 150 m/s goes 250 times its size in a tick */
+  ck_assert_float_le(max, bounds[_i]); /* a centimetre at 150 m/s moves 250 times its size in a tick */
   sbf_vec3 at = scene_point(&s, 0, 0);
   double travel = sbr_character_get_origin(s.world, s.character).x + (double)at.x - begin;
   double exact = 0.5 * (double)pull * SECONDS * SECONDS;

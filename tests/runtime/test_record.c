@@ -95,7 +95,7 @@ START_TEST(another_world_is_reported)
   ck_assert(replay.differs);
   ck_assert_uint_eq(replay.differs_at_tick, 1);
   scene_free(&s);
-  /* A wish that was another: a second later. */
+  /* A changed input has an effect a second later. */
   s = make(SBR_INSTRUCTIONS_AUTOMATIC);
   for (size_t at = 8; at < t.size; at += 8 + 8 * (size_t)t.bytes[at + 4])
     if (t.bytes[at] == 5) t.bytes[at + 8 + 8 + 6] ^= 8; /* forward of a drive */
@@ -110,8 +110,8 @@ START_TEST(another_world_is_reported)
 }
 END_TEST
 
-/* Cut off anywhere it plays what is whole; with a byte turned anywhere it is refused or plays something else,
- * and nothing breaks. */
+/* A truncated record plays its intact frames. With a byte changed anywhere, it is refused or plays something
+ * else, without a crash. */
 START_TEST(damaged_recordings_do_no_harm)
 {
   static tape t, cut;

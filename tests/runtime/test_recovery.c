@@ -1,4 +1,4 @@
-/* What becomes of bodies that lose their numbers or their shape. */
+/* Recovery of bodies with invalid numbers or a lost shape. */
 #include <math.h>
 
 #include "harness.h"
@@ -9,8 +9,7 @@
 static const double GRAVITY = 9.81;
 static const float SIZE = 0.2f;
 
-/* A cube of rubber that nothing holds, its lowest point at `height`; the steps that it is to be taken in are
- * far too few. */
+/* A cube of rubber without pins, its lowest point at `height`. It is stepped in far too few substeps. */
 static scene begin_cube(double height, sbf_scheme scheme, uint32_t substeps) {
   scene s = scene_begin();
   lattice_box box = lattice_box_make(
@@ -44,8 +43,8 @@ static sbr_body_health health_of(const scene *s) {
   return sbr_character_get_body_health(s->world, s->character, 0);
 }
 
-/* It used to stop where it was. A corner that is torn off as far as numbers go is an explosion whatever the
- * steps. */
+/* It used to stop in place. A corner moved away as far as numbers allow counts as an explosion for any number
+ * of steps. */
 START_TEST(a_reset_keeps_the_momentum_exactly)
 {
   scene s = begin_cube(1000, SBF_SCHEME_SYMPLECTIC, 4);
@@ -72,7 +71,7 @@ START_TEST(a_reset_keeps_the_momentum_exactly)
 }
 END_TEST
 
-/* It used to hang in the air for good. Now it falls as a rigid body and lies where it lands. */
+/* It used to float in the air permanently. Now it falls as a rigid body and stays where it lands. */
 START_TEST(bodies_that_no_scheme_can_step_move_rigidly)
 {
   scene s = begin_cube(1, SBF_SCHEME_SYMPLECTIC, 4);
@@ -94,9 +93,9 @@ START_TEST(bodies_that_no_scheme_can_step_move_rigidly)
 }
 END_TEST
 
-/* A cube of rubber whose middle point lies so near to faces of its elements that these are slivers, 200 to
- * 100,000 times as wide as high. It falls and lies as a cube does, or the report says that it was put back.
- */
+/* The middle point of a cube of rubber lies so near to faces of its elements that these are slivers, 200 to
+ * 100,000 times as wide as high. It falls and rests like a cube, or the report states that it was put
+ * back. */
 START_TEST(a_body_with_slivers_falls)
 {
   static const float gaps[] = {5e-4f, 2e-4f, 1e-4f, 1e-5f, 1e-6f};

@@ -28,7 +28,7 @@ static float worst_limit(const scene *s) {
   return beyond;
 }
 
-/* How far a body goes in this tick beside its way in the one before, at most, m. */
+/* Maximum difference between a body's motion in this tick and in the one before, m. */
 static float worst_jump(const scene *s, sbf_vec3 positions[PARTS], sbf_vec3 directions[PARTS]) {
   float max = 0;
   for (uint32_t b = 0; b < PARTS; b++) {
@@ -49,9 +49,9 @@ static uint32_t landings(const scene *s, sbr_double3 *position) {
   return events.landed_count;
 }
 
-/* Down within two seconds, up again within eight, which is told of when it has landed and where, no joint
- * broken by a degree on the way, and no joint apart; nothing jumps while it gets up, or when it is up; the
- * pose is that of before, a step away at most. */
+/* The person falls within two seconds and is up again within eight. An event reports the landing and its
+ * position. No joint exceeds its limit by a degree or separates. Nothing jumps while it gets up or
+ * afterwards. Its pose is the one from before, at most a step away. */
 START_TEST(hit_falls_and_gets_up)
 {
   static const sbf_vec3 hits[4] = {{0, 0, 120}, {150, 0, -40}, {-80, 60, 0}, {0, 0, -150}};
@@ -87,7 +87,7 @@ START_TEST(hit_falls_and_gets_up)
   ck_assert_float_le(beyond, 0.01745f);
   ck_assert_float_le(resting, 0.001745f);
   ck_assert_float_le(separation, 1e-3f);
-  ck_assert_float_le(jump, 0.025f); /* the help's 40 m/s^2 make 11 mm, the drives and the ground the rest */
+  ck_assert_float_le(jump, 0.025f); /* the assistance of 40 m/s^2 makes 11 mm, drives and ground the rest */
   scene_ticks(&s, 30);
   sbf_vec3 chest = rigid_state(&s, 1).center;
   ck_assert_float_le(hypotf(chest.x - (float)position.x, chest.z - (float)position.z), 0.2f);

@@ -132,7 +132,7 @@ START_TEST(a_hanging_bar_has_the_stiffness_of_its_modulus)
   double length = 40 * (double)step, expected = density * 9.81 * length * length / (2 * modulus);
   double sag = 0;
   for (uint32_t i = 0; i < 4; i++) sag -= (double)scene_point(&s, 0, i).y / 4;
-  ck_assert_double_gt(expected, 5 * 0.0005); /* to be seen in single precision */
+  ck_assert_double_gt(expected, 5 * 0.0005); /* large enough for single precision */
   ck_assert_double_eq_tol(sag, expected, 0.08 * expected);
   scene_free(&s);
 }
@@ -175,7 +175,7 @@ START_TEST(the_lowest_mode_is_damped_by_the_ratio)
   uint32_t wait = (uint32_t)(60 * 12 / lowest), span = (uint32_t)(60 * 4 * PI / lowest);
   scene_ticks(&s, wait);
   kept early = measure(&s);
-  double drift = 0; /* of the body as a whole, which nothing damps */
+  double drift = 0; /* of the body as a whole, which is not damped */
   for (uint32_t i = 0; i < s.model->islands[0].free_count; i++)
     drift += (double)s.model->islands[0].masses[i];
   double whole = 0.5 * (double)early.momentum.y * (double)early.momentum.y / drift;
@@ -189,7 +189,7 @@ START_TEST(the_lowest_mode_is_damped_by_the_ratio)
 }
 END_TEST
 
-/* Damping of their own takes energy, and neither brakes a turn nor a flight. */
+/* Regions' own damping takes energy, but does not slow rotation or flight of the body as a whole. */
 START_TEST(damping_of_regions_does_not_slow_rigid_motion)
 {
   scene s = make_block(60);
@@ -216,8 +216,8 @@ START_TEST(damping_of_regions_does_not_slow_rigid_motion)
 }
 END_TEST
 
-/* Held by a bone, walking, on ground, by every scheme that steps it: the same bits at every width, and after
- * a snapshot. */
+/* Pinned to a bone, walking, on ground, with every scheme that supports it: the same bits for every lane
+ * count and after a snapshot. */
 static scene make_walker(sbf_scheme scheme, sbr_instructions instructions) {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 0.3f, 0});

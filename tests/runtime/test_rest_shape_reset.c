@@ -53,8 +53,8 @@ static const struct {
   uint32_t ends;
 } blocks[] = {{1, 1}, {1, 2}, {50, 2}, {0.05f, 2}};
 
-/* Flesh in a heap whose points fly about at some metres a second is put back: bones and flesh have what they
- * had before, of momentum and of angular momentum, and no more energy. */
+/* A pile of flesh whose points move at some metres per second is put back. Momentum and angular momentum of
+ * bones and flesh are conserved, and energy does not rise. */
 START_TEST(a_reset_keeps_the_momentum)
 {
   uint32_t ends = blocks[_i].ends;
@@ -89,7 +89,7 @@ START_TEST(a_reset_keeps_the_momentum)
 }
 END_TEST
 
-/* What has lost its numbers has no momentum that could be kept: it goes as its bone does. */
+/* A body with NaN positions has no momentum to conserve: it takes the motion of its bone. */
 START_TEST(bodies_with_invalid_numbers_follow_their_bone)
 {
   scene s = block(1, 1);

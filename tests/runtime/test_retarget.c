@@ -13,8 +13,8 @@ enum { LINKS = 6, SOURCE_BONES = LINKS + 2, BONES = 20, HEAD = 4, TAIL = 5 };
 
 static const sbf_vec3 UP = {0, 1, 0};
 
-/* A root, six links of a tail behind it and a neck; nothing is named as in the quadruped but two chains. In a
- * second every link bends by 0.1 rad aside, the neck nods by 0.5 rad. */
+/* A root, six links of a tail behind it and a neck. Only two chains have the quadruped's names. In a second,
+ * every link bends by 0.1 rad to the side, and the neck nods by 0.5 rad. */
 static sbf_asset *serpent(void) {
   static const uint32_t links[LINKS] = {1, 2, 3, 4, 5, 6}, neck[1] = {7};
   static const float times[2] = {0, 1};
@@ -92,7 +92,7 @@ START_TEST(chains_of_one_name_carry_a_clip_to_other_bones)
   sbf_asset *from = serpent();
   ck_assert_msg(
       sbr_asset_retarget_clips(q, from, "a serpent", take, &n, &error) == SBF_OK, "%s", error.message);
-  sbf_asset_free(from); /* what was carried over stands by itself */
+  sbf_asset_free(from); /* the retargeted clip needs no other data */
   ck_assert_uint_eq(n.clips, 1);
   ck_assert_uint_eq(n.unmatched, 2);
   ck_assert_uint_eq(q->clips.count, 1);

@@ -79,8 +79,8 @@ START_TEST(legs_are_three_bones_or_a_peg_or_have_a_toe)
 }
 END_TEST
 
-/* Five seconds at 0.2 m/s: both feet step in turn, and stay where they stand; what a peg lacks or has too
- * much of is little. */
+/* Five seconds at 0.2 m/s: both feet step alternately and stay in place in stance, with a small error in each
+ * peg's length. */
 START_TEST(a_character_walks_on_pegs)
 {
   gait_stage s;
@@ -113,8 +113,8 @@ START_TEST(a_character_walks_on_pegs)
 }
 END_TEST
 
-/* A knee between two bodies: of several limits of one motion the narrower bounds hold, as of a hinge its
- * kind's. */
+/* A knee between two bodies: the narrowest of several limits of one motion applies, also of a hinge's own
+ * limit. */
 START_TEST(limits_of_a_joint_narrow_each_other)
 {
   static const struct { float min, max; } bounds[] = {{-0.4f, 2}, {-1, 0.9f}, {-0.8f, 1.5f}};

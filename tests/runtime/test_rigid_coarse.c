@@ -1,4 +1,4 @@
-/* Rigid parts that fall coarsely: for less, and still whole. */
+/* Rigid parts stepped coarsely: cheaper, with intact joints. */
 #include <math.h>
 
 #include "coupling/ragdoll/ragdoll.h"
@@ -83,9 +83,10 @@ static sbf_vec3 shove_of(uint32_t *seed, bool stairs) {
   return (sbf_vec3){aside, 0, stairs || on < 120 ? on : -on};
 }
 
-/* Persons of 14 and 20 parts, shoved at random on level ground and down stairs: no joint comes off by a third
- * of a millimetre, no limit is broken by a degree on the way or by a tenth of one at rest, no corner is in
- * the ground by 4 mm, and after 5 s nothing moves by more than 1 mm/s; in two thirds of the steps at most. */
+/* Persons of 14 and 20 parts, pushed at random on level ground and down stairs. No joint separates by a third
+ * of a millimetre, no limit is exceeded by a degree in motion or a tenth of one at rest, no corner is 4 mm in
+ * the ground, and after 5 s nothing moves by more than 1 mm/s. All this in at most two thirds of the
+ * steps. */
 START_TEST(bodies_stay_whole_and_rest_with_coarse_steps)
 {
   bool whole = _i & 1, stairs = _i & 2;
@@ -106,7 +107,7 @@ START_TEST(bodies_stay_whole_and_rest_with_coarse_steps)
 }
 END_TEST
 
-/* Steps that a model says itself stay as many; in flight a quarter. */
+/* A model's own number of steps is unchanged; in flight it is a quarter. */
 START_TEST(requested_steps_are_kept)
 {
   scene s = whole_person();

@@ -1,4 +1,4 @@
-/* Drawn towards the animation, bone by bone, with a share of the drive's strength. */
+/* Bodies driven towards the animation, each with its own fraction of the drive's strength. */
 #include <math.h>
 
 #include "harness.h"
@@ -10,7 +10,8 @@
 enum { ARMS = 3 };
 
 static const float KG = 2, REACH_M = 0.25f, G = 9.81f, TURN = 6.28318530718f;
-/* About the joint, as drives reckon it: the mean over all axes of the box's own, and what the arm adds. */
+/* Inertia about the joint as drives compute it: the mean of the box's own over all axes, plus the lever
+ * arm's. */
 static const float MOMENT = 2 * 0.0625f + 0.02f;
 
 static scene arms(void) {
@@ -46,7 +47,7 @@ static void give(const scene *s, int32_t body, float fraction) {
   sbr_character_set_rigid_drive_fraction(s->world, s->character, body, fraction);
 }
 
-/* Each arm driven with its share. */
+/* Each arm has its own drive fraction. */
 static scene arms_sharing(const float fractions[ARMS]) {
   scene s = arms();
   scene_start(&s);
@@ -65,7 +66,7 @@ static float angular_velocity(const scene *s, uint32_t body) {
   return sqrtf(w.x * w.x + w.y * w.y + w.z * w.z);
 }
 
-/* Where the drive and the weight are even: the drive as a spring, or cut at its strength. */
+/* The angle at which drive and weight balance, with the drive as a spring or limited to its strength. */
 static float even(float fraction) {
   sbr_rigid_drive drive = sbr_default_rigid_drive();
   float w = TURN * drive.frequency_hz, spring = fraction * MOMENT * w * w, max = fraction * drive.strength;
@@ -98,7 +99,7 @@ START_TEST(the_drive_fraction_scales_the_drive)
 }
 END_TEST
 
-/* Each arm as if the others had the same share. */
+/* Each arm moves as if the others had the same fraction. */
 START_TEST(fractions_belong_to_one_bone_each)
 {
   static const float fractions[ARMS] = {0, 1, 0.3f};
@@ -122,9 +123,9 @@ START_TEST(fractions_belong_to_one_bone_each)
 }
 END_TEST
 
-/* ---- At both ends ---- */
+/* ---- Fractions of 0 and 1 ---- */
 
-/* Bit for bit what a passive one does. */
+/* The same bits as a passive one. */
 START_TEST(a_zero_drive_fraction_gives_a_ragdoll)
 {
   sbr_rigid_state at[2][PARTS];
@@ -145,7 +146,7 @@ START_TEST(a_zero_drive_fraction_gives_a_ragdoll)
 }
 END_TEST
 
-/* A thousandth of the drive is hardly more than none: the flesh about the joint damps as much. */
+/* A thousandth of the drive has almost no effect; the flesh about the joint damps as much. */
 START_TEST(a_small_drive_fraction_is_nearly_a_ragdoll)
 {
   static const float fractions[ARMS] = {0, 0.001f, 0.01f};
@@ -222,8 +223,8 @@ START_TEST(settings_without_their_cookie_change_nothing)
 }
 END_TEST
 
-/* Kinematic ones are at the pose; driven ones behind it by what the drive's damping and the weight make, the
- * less the greater their share. */
+/* Kinematic bodies are at the pose. Driven ones lag by the drive's damping and the weight, less with a
+ * greater fraction. */
 START_TEST(driven_bodies_follow_the_animation)
 {
   float times[KEYS], values[4 * KEYS], worst[ARMS] = {0};
@@ -247,10 +248,9 @@ START_TEST(driven_bodies_follow_the_animation)
 }
 END_TEST
 
-/* ---- From one to another ---- */
+/* ---- Changes of the fraction ---- */
 
-/* What an arm's turning may change by in a tick: what weight, a whole drive and the damping of both can do.
- */
+/* Maximum change of an arm's angular velocity in a tick, by weight, a full drive and the damping of both. */
 static float max_change(float damped_rad_s) {
   sbr_rigid_drive drive = sbr_default_rigid_drive();
   float about_end = KG * REACH_M * REACH_M; /* less than its own moment about the joint */

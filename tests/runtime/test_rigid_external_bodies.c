@@ -1,5 +1,4 @@
-/* Bodies of a host that hulls of rigid parts move within the tick: both get what two bodies give each other.
- */
+/* Bodies of a host that rigid parts push within the tick: impulses on both sides are equal and opposite. */
 #include "rigid/rigid_external_bodies.h"
 
 #include <math.h>
@@ -35,7 +34,7 @@ static double sum_of(const scene *s, const host_body *b) {
   return scene_momentum_of(s).linear[2] + b->mass * b->velocity[2];
 }
 
-/* A ball strikes a box of 2 kg in its middle: as two bodies do. */
+/* A ball strikes a box of 2 kg in its middle, like two rigid bodies. */
 START_TEST(struck_in_the_middle)
 {
   const double masses[5] = {0.02, 0.5, 2, 5, 200}, backs[3] = {0, 0.5, 0.8};
@@ -57,8 +56,8 @@ START_TEST(struck_in_the_middle)
 }
 END_TEST
 
-/* The same at the end of a rod, which also begins to turn; from several distances, so in any part of a tick.
- */
+/* The same at the end of a rod, which also starts to rotate. Starts from several distances, so the impact is
+ * anywhere in a tick. */
 START_TEST(a_box_struck_at_an_end)
 {
   const double mass = 1, own = 2, u = 3, length = 0.6, side = 0.1, off = 0.25, e = 0.5;
@@ -145,8 +144,8 @@ START_TEST(a_ball_hits_a_person)
 }
 END_TEST
 
-/* A person falls onto a light crate that stands on the host's floor: it is borne by it, and the crate goes
- * nowhere but aside. */
+/* A person falls onto a light crate on the host's floor. The crate supports it, and moves only to the
+ * side. */
 START_TEST(a_person_falls_on_a_crate)
 {
   scene s = person();
@@ -176,7 +175,7 @@ static scene tower(double below) {
   return s;
 }
 
-/* Bodies that meet each other, as a tower, weigh on the host's body below it. */
+/* Stacked bodies press with their whole weight on the host's body below. */
 START_TEST(a_tower_weighs)
 {
   scene s = tower(-1000);
@@ -210,7 +209,7 @@ START_TEST(a_crate_rests_on_a_tower)
 }
 END_TEST
 
-/* A light body of the host on its floor carries the tower. */
+/* A light body of the host on its floor supports the tower. */
 START_TEST(a_floor_carries_a_tower)
 {
   scene s = tower(-1000);

@@ -85,8 +85,8 @@ START_TEST(points_on_a_line_have_no_angular_velocity_about_it)
 }
 END_TEST
 
-/* Each point by its own rate: momentum and angular momentum stay, and what is damped the most loses the most.
- */
+/* Each point has its own damping rate: momentum and angular momentum stay, and the most damped point loses
+ * the most. */
 START_TEST(damping_rates_of_bodies_do_not_change_it)
 {
   double before[2][3], after[2][3];

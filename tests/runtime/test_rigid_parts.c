@@ -11,8 +11,8 @@ static float larger(float a, float b) {
   return a > b ? a : b;
 }
 
-/* Within 5 s, whatever way it is thrown; no joint off, no limit broken by a degree on the way and a tenth of
- * one at rest; and nothing moves by more than 1 mm/s then. */
+/* At rest within 5 s after any throw: no joint separates, no limit is exceeded by a degree in motion or a
+ * tenth of one at rest, and nothing moves by more than 1 mm/s. */
 START_TEST(a_person_falls_and_comes_to_rest)
 {
   static const sbf_vec3 shoves[4] = {{0, 0, 60}, {80, 0, -40}, {-30, 100, 0}, {0, -50, -120}};
@@ -54,7 +54,7 @@ START_TEST(bones_follow_their_bodies)
   sbr_character_get_bones(s.world, s.character, bones, PARTS);
   for (uint32_t b = 0; b < PARTS; b++) {
     sbr_rigid_state now = rigid_state(&s, b);
-    /* At rest the bone's axes are asset space's, as the body's are. */
+    /* At rest the bone's axes are those of asset space, like the body's. */
     ck_assert_float_eq_tol(fabsf(bones[b].rotation.w), fabsf(now.frame.rotation.w), 1e-5f);
     sbf_vec3 d = {bones[b].position.x - now.center.x, bones[b].position.y - now.center.y,
         bones[b].position.z - now.center.z};
@@ -67,7 +67,7 @@ START_TEST(bones_follow_their_bodies)
 }
 END_TEST
 
-/* The hips held, all else driven: gravity bends it by little, and with no strength it hangs. */
+/* The hips are kinematic, all others driven: gravity bends it slightly. Without strength it hangs. */
 START_TEST(drives_keep_the_pose)
 {
   float bent[2];
@@ -105,7 +105,7 @@ START_TEST(modes_change_in_motion)
 }
 END_TEST
 
-/* From a snapshot the same again, bit for bit; and asleep at last, until it is pushed. */
+/* The same bits from a snapshot. In the end it sleeps until an impulse wakes it. */
 START_TEST(snapshots_and_sleep)
 {
   scene s = person();
@@ -134,7 +134,7 @@ START_TEST(snapshots_and_sleep)
 }
 END_TEST
 
-/* Twice the size falls as a body of that size does: the same shape after sqrt 2 times as long. */
+/* A body of twice the size falls as physics predicts: the same shape after sqrt 2 times as long. */
 START_TEST(a_larger_person_falls_equally)
 {
   sbr_joint_state small, large;

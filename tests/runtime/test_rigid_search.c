@@ -1,4 +1,4 @@
-/* How far a pass goes, where what stops it is a narrow place on a long way. */
+/* Length of a solver step where a narrow optimum stops a long move. */
 #include <math.h>
 #include <string.h>
 
@@ -7,9 +7,9 @@
 
 static const float KG = 8;
 
-/* A box of eight kilograms that the pass before has at `was`, m/s along x, and that without a touch would be
- * at `to`: what slides gives an impulse of at most `bound` against that, and within `sticks` m/s of standing
- * it holds with as much as it takes. */
+/* A box of eight kilograms that had the velocity `was` along x after the previous pass, m/s, and would have
+ * `to` without contact. While it slides, an impulse of at most `bound` acts against it. Within `sticks` m/s
+ * of rest, the impulse is as large as rest requires. */
 typedef struct slide {
   sbri_node node;
   sbri_rigid_body body;
@@ -38,8 +38,8 @@ static void slide_of(slide *s, float was, float to, float bound, float sticks) {
   s->tick.model = &s->model;
 }
 
-/* Friction of up to 6.9 N s on what 6.4 N s push: it stands, within what friction gives way by, however
- * narrow that is and from whichever side it comes. */
+/* Friction of up to 6.9 N s against 6.4 N s: the box stands still within the tolerance of friction, for any
+ * width of the optimum and from either side. */
 START_TEST(stuck_bodies_are_found_in_any_gap)
 {
   const float sticks[4] = {1e-2f, 1e-3f, 5e-5f, 1e-5f};

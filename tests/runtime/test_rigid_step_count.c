@@ -1,4 +1,4 @@
-/* How many steps a tick of rigid parts takes, and what that costs in accuracy. */
+/* Number of steps in a tick of rigid parts, and its effect on accuracy. */
 #include <math.h>
 
 #include "coupling/ragdoll/ragdoll.h"
@@ -6,7 +6,7 @@
 #include "rigid_person.h"
 
 static const sbf_vec3 SHOVES[2] = {{25, 0, 60}, {-10, 30, 120}};
-/* More steps a tick than for which flight has but one. */
+/* Steps per tick above which flight takes only one. */
 enum { FINE = 64, TICKS = 60 };
 
 /* High above the ground. */
@@ -32,8 +32,8 @@ static double separation(const scene *a, const scene *b, uint32_t body) {
   return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-/* A person of 20 parts who tumbles through the air takes one step in most ticks, joints and limits hold, and
- * no part is off by more than when there were twice as many. */
+/* A person of 20 parts tumbles through the air in one step in most ticks. Joints and limits are satisfied,
+ * and no part is farther off than with twice as many steps. */
 START_TEST(flight_takes_few_steps)
 {
   scene s = thrown(SHOVES[_i], 0), fine = thrown(SHOVES[_i], FINE);
@@ -60,8 +60,8 @@ START_TEST(flight_takes_few_steps)
 }
 END_TEST
 
-/* A push that starts it goes through the joints within a step. That is no pull which lasts, and asks for no
- * more steps than what turns afterwards. */
+/* An initial impulse passes through the joints within a step. It is no lasting force and needs no more steps
+ * than the rotation afterwards. */
 START_TEST(a_push_is_no_pull)
 {
   scene s = thrown(SHOVES[_i], 0);
@@ -71,8 +71,8 @@ START_TEST(a_push_is_no_pull)
 }
 END_TEST
 
-/* What strikes the ground turns and pulls hard for a tick or two, and then takes as few steps again as it
- * needs. */
+/* After an impact, rotation and forces are large for a tick or two. Then the step count falls back to what is
+ * needed. */
 START_TEST(the_number_of_steps_returns_after_a_hit)
 {
   scene s = whole_person();

@@ -1,4 +1,4 @@
-/* Chains of unequal masses, and loops: what a sweep from joint to joint does badly. */
+/* Chains of unequal masses, and loops: hard cases for a sweep from joint to joint. */
 #include <math.h>
 
 #include "harness.h"
@@ -22,8 +22,8 @@ static float worst_apart(const scene *s, uint32_t joints) {
   return worst;
 }
 
-/* Light links bear a heavy bob, at rest and in a swing of half a radian: no joint is off by half a millimetre
- * of two metres, and the energy stays. */
+/* Light links carry a heavy bob, at rest and in a swing of half a radian. No joint separates by half a
+ * millimetre of two metres, and the energy is conserved. */
 START_TEST(light_chains_carry_heavy_bobs)
 {
   const float ratios[4] = {1, 10, 100, 1000};
@@ -61,8 +61,9 @@ static void falls_from_level(float ratio, int ticks, double max_apart, double ma
   scene_free(&s);
 }
 
-/* Let go from level they swing down and up on the other side and back, three seconds: no joint is off by a
- * tenth of a millimetre, and the energy stays within 1 % of what the fall to the lowest place sets free. */
+/* Released from level, they swing down, up on the other side and back in three seconds. No joint separates by
+ * a tenth of a millimetre, and the energy changes by less than 1 % of the potential energy of the fall to the
+ * lowest point. */
 START_TEST(light_chains_fall_from_level)
 {
   const float ratios[4] = {1, 10, 100, 1000};
@@ -70,8 +71,8 @@ START_TEST(light_chains_fall_from_level)
 }
 END_TEST
 
-/* And on for ten seconds, in which they crumple where they come back to and are pulled straight again, so
- * that their links crack as whips do. */
+/* Ten more seconds, in which the links fold up on the way back and are pulled straight again, as in a
+ * cracking whip. */
 START_TEST(light_chains_crack)
 {
   const float ratios[3] = {10, 100, 1000};
@@ -79,8 +80,8 @@ START_TEST(light_chains_crack)
 }
 END_TEST
 
-/* A parallelogram of hinges, three of whose rows say what others do: two cranks of mass m and length l under
- * a coupler M swing with w^2 = g (m + M) l / (2 m l^2 / 3 + M l^2). */
+/* A parallelogram of hinges with three redundant rows: two cranks of mass m and length l under a coupler M
+ * swing with w^2 = g (m + M) l / (2 m l^2 / 3 + M l^2). */
 START_TEST(a_loop_of_four_bars_closes)
 {
   scene s = rigid_begin();
@@ -117,8 +118,8 @@ START_TEST(a_loop_of_four_bars_closes)
 }
 END_TEST
 
-/* A chain held at both ends, by the world: from a V it swings into the curve of a rope, whose ends bear it.
- */
+/* A chain fixed at both ends to the world: from a V it swings into the curve of a rope, whose ends carry
+ * it. */
 START_TEST(a_chain_fixed_at_both_ends_hangs)
 {
   scene s = rigid_begin();

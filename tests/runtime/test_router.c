@@ -1,5 +1,5 @@
-/* What is left to the runtime: explicit steps where they are enough, position-based ones for what is too
- * stiff and for what is in trouble, and the rest shape for what does not come back. */
+/* Selection of the scheme by the runtime: explicit steps where they suffice, position-based steps for bodies
+ * that are too stiff or unstable, and the rest shape for bodies that do not recover. */
 #include "soft/solvers/router.h"
 
 #include <math.h>
@@ -91,7 +91,8 @@ START_TEST(thrown_bodies_recover_and_return_to_their_scheme)
 }
 END_TEST
 
-/* One point through the opposite side of its cells: too soft to move fast, and too few to be folded. */
+/* One point passes through the opposite side of its cells. The body is too soft to move fast, and too few
+ * elements invert for it to count as collapsed. */
 START_TEST(one_inverted_element_is_trouble)
 {
   scene s = scene_begin();

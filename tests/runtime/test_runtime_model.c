@@ -85,7 +85,7 @@ START_TEST(scheme_and_substeps_come_from_the_call_or_the_level)
 }
 END_TEST
 
-/* A stated scheme is a hint, an asked one is not. */
+/* A scheme in the file is a hint, a requested one is not. */
 START_TEST(a_scheme_that_cannot_step_a_level_is_refused)
 {
   scene s = section();

@@ -28,12 +28,12 @@ enum { ALONG = 10, ACROSS = 2, MAX_POINTS = 128, MAX_PINNED = 18, MAX_SPRINGS = 
 
 typedef struct row {
   sbf_scheme scheme;
-  uint32_t substeps; /* 0: its own choice */
+  uint32_t substeps; /* 0: chosen by the scheme */
   float stiffness_damping_s;
-  /* Bounds of the shares by which it may be off, by models; the period of SWING, and of both spins the
-   * greater of momentum and angular momentum; negative: it does not run that. */
+  /* Maximum errors as fractions, by models: for SWING the period, for both rotations the greater of momentum
+   * and angular momentum. Negative: it does not support the model. */
   double within[CASE_COUNT][MODEL_COUNT];
-  double damping[MODEL_COUNT]; /* bound of the damping added to SWING, as a ratio */
+  double damping[MODEL_COUNT]; /* maximum damping ratio added to SWING */
 } row;
 
 static const row rows[] = {
@@ -166,7 +166,7 @@ static void run_to_rest(elastic model, const row *r, question q, sbf_vec3 *posit
   ck_assert(h.finite && !h.inverted && h.recoveries == 0);
 }
 
-/* Share by which the displacements are greater than those of the energy's least. */
+/* Fraction by which displacements exceed those at the minimum of energy. */
 static double rest_bias(elastic model, const row *r, question q) {
   static const row finest = {.scheme = SBF_SCHEME_SYMPLECTIC, .substeps = 64};
   static sbf_vec3 positions[MAX_POINTS], exact[MAX_POINTS];
@@ -283,8 +283,8 @@ static void find_momentum(sbfi_d3 parts[2]) {
   parts[1] = sbfi_d3_sub(turn, sbfi_d3_cross(sbfi_d3_scale(moment, 1 / mass), momentum));
 }
 
-/* Thrown, turning by so much and shaking: what it has gained or lost of momentum and of angular momentum
- * about its centre of mass in two seconds. */
+/* Thrown with rotation and vibration: gain or loss of momentum and of angular momentum about its centre of
+ * mass in two seconds. */
 static double spin_bias(elastic model, const row *r, float rad_s) {
   begin(model, r, SPIN, (sbf_vec3){0, 0, 0});
   scene_start(&s);

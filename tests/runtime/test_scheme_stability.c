@@ -1,5 +1,5 @@
-/* What breaks other engines, in every scheme: no number that is none, ever; and of the schemes that promise
- * it, the shape again. */
+/* Known failure cases of other engines, in every scheme. No number may become NaN or infinite, and schemes
+ * that promise recovery restore the shape. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
     SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_RELAXATION};
-/* Those from explicit Euler on promise nothing but numbers. */
+/* Explicit Euler and later ones only promise finite numbers. */
 enum { SCHEME_COUNT = 7, AUTOMATIC = 0, POSITION_BASED = 2, HEUN = 3, EXPLICIT_EULER = 5, RELAXATION = 6 };
 
 /* ---- A cloth held at two corners, its springs listed from there on ---- */
@@ -185,9 +185,9 @@ static scene bar(sbf_scheme scheme) {
   return s;
 }
 
-/* The order in which a file lists springs and tetrahedra, their ends and their corners, has no say beyond the
- * last digits of what sums them, and little in what settles one after the other. The reference's own goes by
- * the order, as it did: the same shape within a centimetre. */
+/* The order in which a file lists springs and tetrahedra, their ends and corners, affects only the last
+ * digits of sums, and little in schemes that solve one element after the other. The reference method follows
+ * the order by design: the same shape within a centimetre. */
 START_TEST(elements_may_be_listed_in_reverse)
 {
   for (int solid = 0; solid < (schemes[_i] == SBF_SCHEME_RELAXATION ? 1 : 2); solid++) {
@@ -233,8 +233,8 @@ START_TEST(heavy_points_hang_on_light_ones)
     scene_ticks(&s, 1);
     ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   }
-  /* 98 N stretch each link by 4.9 mm. Position-based, and so what is left to the runtime, cannot hold a
-   * weight like that on links this light in 32 substeps: it stretches. */
+  /* 98 N stretch each link by 4.9 mm. Position-based steps, and so the automatic scheme, cannot carry such a
+   * weight on links this light in 32 substeps: the chain stretches. */
   if (_i < EXPLICIT_EULER)
     ck_assert_float_lt(sbr_character_get_body_health(s.world, s.character, 0).max_strain,
         _i == POSITION_BASED || _i == AUTOMATIC ? 20 : 0.5f);
@@ -242,7 +242,8 @@ START_TEST(heavy_points_hang_on_light_ones)
 }
 END_TEST
 
-/* A surface that faces inwards encloses a negative volume at rest: it has no volume to keep and no gas. */
+/* A surface that faces inwards encloses a negative volume at rest, so it has neither volume stiffness nor
+ * gas. */
 START_TEST(a_surface_inside_out_does_not_blow_up)
 {
   for (int mode = 0; mode < SBF_PRESSURE_MODE_COUNT; mode++) {
@@ -265,8 +266,7 @@ START_TEST(a_surface_inside_out_does_not_blow_up)
 }
 END_TEST
 
-/* What is lost is mended where it is: a loose body that lies far from its character does not fall from the
- * sky again. */
+/* Recovery acts in place: a loose body far from its character does not fall from the sky again. */
 START_TEST(loose_bodies_are_repaired_in_their_position)
 {
   scene s = section(schemes[_i]);

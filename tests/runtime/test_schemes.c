@@ -1,5 +1,5 @@
-/* Every scheme against closed forms: one mass on a spring, a chain, a pendulum, a fall. What each scheme is
- * predicted errors at a given step are tested too. */
+/* Every scheme against closed forms: one mass on a spring, a chain, a pendulum, a fall. Also tests the error
+ * that each scheme predicts for a given step. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,8 +119,8 @@ START_TEST(errors_fall_with_the_order)
 }
 END_TEST
 
-/* Where nothing damps it, explicit Euler gains energy in every substep; where the springs do, it holds while
- * w h < 2 z and fails beyond. */
+/* Undamped, explicit Euler gains energy in every substep. With damped springs it is stable while w h < 2 z
+ * and unstable beyond. */
 START_TEST(explicit_euler_fails_where_it_must)
 {
   const struct {
@@ -163,7 +163,7 @@ START_TEST(heun_stays_within_its_error_tolerance)
 }
 END_TEST
 
-/* Unless the host says another; without either the one that sbrun.h names. */
+/* The host's choice has precedence; the default is the one that sbrun.h names. */
 START_TEST(heun_uses_the_error_tolerance_of_the_file)
 {
   enum { cases = 5 };
@@ -186,7 +186,7 @@ START_TEST(heun_uses_the_error_tolerance_of_the_file)
 }
 END_TEST
 
-/* However coarse the error that is asked for, or fine: as with just so many substeps, powers of two. */
+/* For any requested error, the result equals that of the chosen number of substeps, a power of two. */
 START_TEST(heun_uses_the_step_bounds_of_the_file)
 {
   const uint32_t min[] = {48, 0, 0, 0}, max[] = {0, 9, 0, 0}, of_host[] = {0, 0, 64, 8};
@@ -402,7 +402,7 @@ START_TEST(a_pendulum_keeps_its_period)
   }
   s.world_definition.gravity = (sbf_vec3){0, -9.81f, 0};
   scene_start(&s);
-  /* From level: 90 degrees. */
+  /* Released from level: 90 degrees. */
   double exact = 2 * pi * sqrt(1 / 9.81) * 1.1803406, before = 1, first = -1, last = -1;
   int crossings = 0;
   for (int i = 1; i < 600; i++) {
@@ -418,14 +418,14 @@ START_TEST(a_pendulum_keeps_its_period)
     before = x;
   }
   ck_assert_int_ge(crossings, 2);
-  /* Position-based and the damped one lose swing, and so time. */
+  /* The position-based scheme and the damped one lose amplitude, which shortens the period. */
   ck_assert_double_eq_tol((last - first) / crossings, exact, 0.03 * exact);
   scene_free(&s);
 }
 END_TEST
 
-/* Two masses of one body, each on a spring of its own, factors 0.5 and 3 on a damping of 0.8 /s: what the
- * scheme takes of its own is the same of both. */
+/* Two masses of one body, each on its own spring, factors 0.5 and 3 on a damping of 0.8 /s: the scheme's own
+ * damping is equal for both. */
 START_TEST(weight_maps_damp_point_by_point)
 {
   scene s = scene_begin();
@@ -467,7 +467,7 @@ START_TEST(weight_maps_damp_point_by_point)
 }
 END_TEST
 
-/* A pin of weight 0.5 is a spring of half its set's stiffness and no length: m g / k below its place. */
+/* A pin of weight 0.5 is a spring of half its set's stiffness and zero length: m g / k below its target. */
 START_TEST(a_goal_pulls_a_point_to_its_target)
 {
   scene s = scene_begin();

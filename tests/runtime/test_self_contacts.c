@@ -8,8 +8,7 @@
 
 enum { LONG = 41, WIDE = 5, POINTS = LONG * WIDE };
 
-/* A strip of 1 m by 0.1, folded to a U that lies on its side: two legs, 6 cm apart, the upper
- * the shorter. */
+/* A strip of 1 m by 0.1, folded to a U that lies on its side: two legs, 6 cm apart, the upper one shorter. */
 static scene folded_strip_in_air(bool collides, float friction, float air_1_s) {
   scene s = scene_begin();
   sbf_vec3 at[POINTS];
@@ -51,7 +50,7 @@ static scene folded_strip(bool collides, float friction) {
   return folded_strip_in_air(collides, friction, 0);
 }
 
-/* Of the upper leg's points the least height over the lower leg's at the same distance from the bend. */
+/* Minimum height of the upper leg's points over the lower leg's at the same distance from the bend. */
 static double min_gap(const scene *s) {
   sbf_vec3 at[POINTS];
   double min = 1e9;
@@ -67,8 +66,8 @@ static double min_gap(const scene *s) {
   return min;
 }
 
-/* The upper leg, which nothing holds at its end, falls onto the lower one and lies there; without `self` it
- * falls through. */
+/* The upper leg, free at its end, falls onto the lower one and rests there. Without `self` it falls
+ * through. */
 START_TEST(a_folding_strip_rests_on_itself)
 {
   double min[2] = {1e9, 1e9}, end[2];
@@ -89,8 +88,8 @@ START_TEST(a_folding_strip_rests_on_itself)
 }
 END_TEST
 
-/* And lies there: no point of the leg on the other hops or creeps. (The rows that are the fold swing on like
- * pendulums: nothing damps that here.) */
+/* It also rests there: no point of the leg jumps or creeps. (The rows of the fold continue to swing like
+ * pendulums, because nothing damps them here.) */
 START_TEST(a_folded_strip_rests)
 {
   const float frictions[3] = {1, 0.3f, 0.1f};
@@ -112,8 +111,8 @@ START_TEST(a_folded_strip_rests)
 }
 END_TEST
 
-/* Where the air takes a share of 1/s of what swings, the rows that are the fold come to rest as well: touches
- * put nothing in. (At friction 1 one row swung at 0.3 m/s for ever.) */
+/* With damping of 1/s by the air, the rows of the fold come to rest as well: contacts add no energy. (At
+ * friction 1 one row swung at 0.3 m/s permanently.) */
 START_TEST(a_sharp_fold_comes_to_rest)
 {
   const float frictions[3] = {1, 0.3f, 0.1f};
@@ -141,7 +140,7 @@ static sbf_vec3 momentum(const scene *s, sbf_vec3 *before, uint32_t count) {
   return sum;
 }
 
-/* In the air, without weight: what a body does to itself does not move it as a whole. */
+/* In the air, without weight: self-contacts do not move the body as a whole. */
 START_TEST(momentum_is_kept)
 {
   scene s = folded_strip(true, 1);

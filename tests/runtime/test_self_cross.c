@@ -1,4 +1,4 @@
-/* What has gone through itself comes out again. */
+/* Surfaces that pass through themselves separate again. */
 #include <math.h>
 
 #include "collision_scenes.h"
@@ -15,7 +15,7 @@ static bool are_separated(const uint32_t ends[2], const uint32_t t[3]) {
   return true;
 }
 
-/* How many triangles a side goes through. */
+/* Number of triangles that an edge passes through. */
 static uint32_t count_of_side(const sbf_vec3 at[ALL], const uint32_t ends[2]) {
   uint32_t count = 0;
   for (uint32_t c = 0; c + COLUMNS < ALL; c++) {
@@ -27,7 +27,7 @@ static uint32_t count_of_side(const sbf_vec3 at[ALL], const uint32_t ends[2]) {
   return count;
 }
 
-/* Over the sides of all triangles. */
+/* Sum over the edges of all triangles. */
 static uint32_t count_all(const sbf_vec3 at[ALL]) {
   static const uint32_t steps[3] = {1, COLUMNS, COLUMNS + 1};
   uint32_t count = 0;
@@ -39,8 +39,8 @@ static uint32_t count_all(const sbf_vec3 at[ALL]) {
   return count;
 }
 
-/* A sheet dropped on its edge crumples, and goes through itself at its corners as it does: after two and a
- * half seconds nothing of it does any more. (40 of its sides went on to.) */
+/* A sheet dropped on its edge crumples and passes through itself at its corners. After two and a half seconds
+ * no edge does. (40 of its edges used to.) */
 START_TEST(a_crumpled_sheet_does_not_intersect_itself)
 {
   static sbf_vec3 at[ALL], now[ALL];
@@ -63,7 +63,7 @@ START_TEST(a_crumpled_sheet_does_not_intersect_itself)
 }
 END_TEST
 
-/* Two strips that go through each other at rest let each other be. */
+/* Two strips that cross at rest stay as they are. */
 START_TEST(intersections_at_rest_stay)
 {
   enum { STRIP = 12, POINTS = 2 * STRIP };
@@ -129,9 +129,9 @@ static uint32_t count_cubes(const sbf_vec3 at[16]) {
   return count;
 }
 
-/* One box of a body is put so deep into the other that none of its corners is within `inner_thickness` of a
- * face, and a thin bar that no edges touch either: it comes out, and the body as a whole stays where it was.
- * (It was let be.) */
+/* One box of a body is placed so deep in the other that no corner is within `inner_thickness` of a face, and
+ * neither is any edge of a thin bar. It separates, and the body as a whole stays in place. (It used to stay
+ * inside.) */
 START_TEST(deep_self_intersections_separate)
 {
   static const float deep_m[] = {0.03f, 0.045f, 0.06f, 0.04f};

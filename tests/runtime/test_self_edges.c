@@ -6,12 +6,12 @@
 #include "harness.h"
 #include "math/vec3.h"
 
-/* ---- Edges that cross where no point is near ---- */
+/* ---- Crossing edges without a point nearby ---- */
 
 enum { ROWS = 6, PART = 2 * ROWS };
 
-/* Two strips of one body, 1 m by 4 cm in five squares, square to each other, the second 10 cm over the first,
- * which is held at its ends. */
+/* Two strips of one body, 1 m by 4 cm in five squares, at a right angle, the second 10 cm over the first,
+ * which is pinned at its ends. */
 static void strips(sbf_vec3 at[2 * PART]) {
   for (uint32_t i = 0; i < 2 * PART; i++) {
     float u = 0.2f * (float)(i % PART / 2) - 0.5f, v = i % 2 ? 0.02f : -0.02f;
@@ -100,7 +100,7 @@ static scene strip_of_three_legs(void) {
   return s;
 }
 
-/* It falls on the ground and together, leg on leg, each point between two of them: none goes through. */
+/* It falls to the ground and folds, leg on leg, each point between two of them. None passes through. */
 START_TEST(a_strip_folds_to_three_legs)
 {
   scene s = strip_of_three_legs();
@@ -115,8 +115,8 @@ START_TEST(a_strip_folds_to_three_legs)
 }
 END_TEST
 
-/* And lies still: what lifts a point out of one leg is not done again by what lifts it out of the next. (It
- * trembled at 0.1 m/s for ever.) */
+/* It also comes to rest: a contact that lifts a point out of one leg does not push it into the next. (It used
+ * to tremble at 0.1 m/s permanently.) */
 START_TEST(three_legs_lie_still)
 {
   static sbf_vec3 before[ALL], now[ALL];

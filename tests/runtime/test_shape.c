@@ -1,4 +1,4 @@
-/* Distances, normals and ways in of every shape, against closed forms. */
+/* Distances, normals and penetration of every shape, against closed forms. */
 #include <math.h>
 
 #include "harness.h"

@@ -21,7 +21,7 @@ static sbr_shape *beam_of(int kind) {
   return collision_shape(d);
 }
 
-/* Height of the lowest of the sheet's sides along x where they are over the beam's middle. */
+/* Minimum height of the sheet's edges along x where they are over the beam's middle. */
 static float over(const scene *s) {
   sbf_vec3 at[ROW * ROW];
   float min = 9;
@@ -34,7 +34,8 @@ static float over(const scene *s) {
   return min;
 }
 
-/* Four points a side, none over the beam: it hangs over it for a second and a half, where it fell past it. */
+/* Four points a side, none over the beam. It hangs over the beam for a second and a half; it used to fall
+ * past. */
 START_TEST(a_coarse_sheet_rests_over_a_beam)
 {
   scene s = scene_begin();

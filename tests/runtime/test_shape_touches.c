@@ -118,7 +118,7 @@ START_TEST(a_bullet_stops_at_a_thin_board)
 }
 END_TEST
 
-/* A ball as a shape knocks a box away, no slower than it goes itself; rays and boxes find both. */
+/* A ball as a shape knocks a box away, at least at the ball's own speed. Rays and boxes find both. */
 START_TEST(a_moving_ball_pushes)
 {
   scene s = begin();

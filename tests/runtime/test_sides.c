@@ -1,4 +1,4 @@
-/* Sides of triangles: rims, ridges, and which stands where. */
+/* Edges of triangles: rims, ridges, and their positions. */
 #include "shapes/sides.h"
 
 #include "harness.h"

@@ -52,10 +52,10 @@ START_TEST(vertices_blend_over_points_and_bodies)
   sbf_vec3 p[4];
   ck_assert_uint_eq(sbr_character_get_skin(s.world, s.character, 0, p, NULL, NULL, 4), 4);
   expect(p[0], 0, 0, 0);
-  /* Half of the first body's mean, half of the second's first point. */
+  /* Mean of the first body's points, with half the weight, and the second's first point, with half. */
   expect(p[1], 0.125f, 0.125f, 0.125f);
-  expect(p[2], 0.5f, 0.5f, -0.5f); /* weights outside 0..1; the second body's share is 0 */
-  expect(p[3], 2, 3, 4);           /* nothing carries it: it goes with the character */
+  expect(p[2], 0.5f, 0.5f, -0.5f); /* weights outside 0..1; the second body's weight is 0 */
+  expect(p[3], 2, 3, 4);           /* no body carries it: it moves with the character */
   scene_free(&s);
 }
 END_TEST

@@ -58,7 +58,7 @@ static void sleep_all(scene *s) {
   ck_assert_uint_eq(sbr_world_count_awake_bodies(s->world), 0);
 }
 
-/* Of what sleeps; whoever wakes goes on from these. */
+/* Stored state of a sleeping body, from which it continues after waking. */
 static void expect_no_velocity(const scene *s) {
   sbri_character *c = sbri_character_of(s->world, s->character);
   for (uint32_t i = 0; i < c->model->island_count; i++) {
@@ -83,7 +83,7 @@ START_TEST(resting_bodies_fall_asleep_without_a_jump_of_energy)
   ck_assert_uint_lt(ticks, 1200);
   ck_assert_uint_gt(ticks, 30);
   ck_assert_uint_eq(log.asleep_count, 2);
-  double slow = 0.5 * 15 * pow(0.01 * 0.6, 2); /* what bodies of 12 and 3 kg hold at the speed of sleep */
+  double slow = 0.5 * 15 * pow(0.01 * 0.6, 2); /* energy of bodies of 12 and 3 kg at the sleep speed */
   ck_assert_double_le(energy(&s), before + 1e-6);
   ck_assert_double_ge(energy(&s), before - slow);
   double asleep = energy(&s);
@@ -93,7 +93,7 @@ START_TEST(resting_bodies_fall_asleep_without_a_jump_of_energy)
   ck_assert_double_eq(energy(&s), asleep);
   ck_assert_float_eq(scene_point(&s, 0, 3).y, point.y);
   ck_assert(sbr_character_get_body_health(s.world, s.character, 0).asleep);
-  /* Awake again it is where it was, and goes on as what never slept. */
+  /* After waking it is where it was, and moves like one that never slept. */
   sbr_character_wake(s.world, s.character);
   scene_ticks(&s, 1);
   ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 2);
@@ -147,7 +147,7 @@ START_TEST(moving_a_sleeping_body_wakes_it)
 {
   static const struct {
     void (*act)(scene *);
-    uint32_t awake; /* bodies, the loose one among them or not */
+    uint32_t awake; /* with or without the loose body */
   } causes[] = {{drive, 1}, {turn_bone, 1}, {teleport, 2}, {raise_ground, 1}, {lower_ground, 1},
       {call_host, 2}, {reset, 2}};
   host_pad = (pad){0, 0};
@@ -172,7 +172,7 @@ START_TEST(moving_a_sleeping_body_wakes_it)
 }
 END_TEST
 
-/* Tasks of bodies that were handed out, and calls of the ground. */
+/* Number of tasks of bodies, and of calls of the ground. */
 static uint32_t handed_out;
 static void count_tasks(void *user, sbr_task *task, void *context, uint32_t count) {
   (void)user;
@@ -195,8 +195,8 @@ START_TEST(a_sleeping_character_costs_no_work)
     uint32_t of_characters = s.world->character_capacity;
     looked += handed_out > of_characters || host_pad.asked > 0;
   }
-  ck_assert_uint_eq(looked, 3); /* every fourth tick it looks at what the host may have changed */
-  /* Over a ground that nobody can change it does not even look. */
+  ck_assert_uint_eq(looked, 3); /* every fourth tick it checks what the host may have changed */
+  /* Over a ground that cannot change it checks nothing. */
   s.world->ground = sbr_ground_flat(0);
   scene_ticks(&s, 8);
   handed_out = host_pad.asked = 0;
@@ -209,7 +209,7 @@ END_TEST
 START_TEST(threads_and_snapshots_agree_about_sleep)
 {
   scene s = make_scene(sbr_ground_flat(0), 0.5), other = make_scene(sbr_ground_flat(0), 0.5);
-  other.world->tasks = (sbr_tasks){count_tasks, NULL}; /* which takes tasks the other way about */
+  other.world->tasks = (sbr_tasks){count_tasks, NULL}; /* which runs tasks in reverse order */
   size_t size = sbr_world_get_snapshot_size(s.world);
   void *bytes = malloc(size);
   for (int i = 0; i < 400; i++) {

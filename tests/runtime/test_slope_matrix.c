@@ -43,7 +43,7 @@ enum { BRICKS = sizeof bricks / sizeof bricks[0] };
 static const double coefficients[] = {0.3, 0.6, 1};
 static const double fractions[] = {0.5, 0.8, 0.95, 1.05, 1.3};
 
-/* Bulges the sides of the box, whose middle is on the y axis, into a ball whose lower part is cut flat. */
+/* Rounds the sides of the box, whose middle is on the y axis, into a ball with a flat lower part. */
 static void make_round(lattice_box *box, sbf_vec3 size) {
   for (uint32_t i = 0; i < box->point_count; i++) {
     sbf_vec3 *at = &box->positions[i];

@@ -88,7 +88,7 @@ START_TEST(snapshots_of_another_world_are_refused)
   sbr_character_destroy(s.world, other);
   ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
-  sbr_character_destroy(s.world, s.character); /* another one in the same place */
+  sbr_character_destroy(s.world, s.character); /* another character in the same slot */
   ck_assert_int_eq(
       sbr_character_create(s.world, s.model, &s.character_definition, &s.character, NULL), SBF_OK);
   ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_FAILED);

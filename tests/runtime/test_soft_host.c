@@ -1,5 +1,5 @@
-/* What a host does to soft bodies changes momentum by exactly what it says, and pins bear exactly what hangs
- * on them. */
+/* A host's impulses on soft bodies change momentum by exactly their amount, and pin reactions equal the
+ * load. */
 #include "sbrun/soft_body.h"
 
 #include <math.h>
@@ -14,8 +14,8 @@ static const float density = 500, size_m = 0.4f, gravity = 10;
 static const sbf_scheme schemes[] = {
     SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT};
 enum { SCHEMES = sizeof schemes / sizeof *schemes };
-/* Of momentum, where the sweeps of block descent end before they have settled; of the forces at rest, which
- * a single position-based sweep leaves off balance. */
+/* Tolerances: of momentum, because the sweeps of block descent end before convergence, and of the forces at
+ * rest, which a single position-based sweep leaves unbalanced. */
 static const float momentum_off[SCHEMES] = {2e-4f, 2e-4f, 2e-4f, 2e-3f};
 static const float balance_off[SCHEMES] = {1e-3f, 1e-2f, 1e-3f, 1e-3f};
 
@@ -50,7 +50,7 @@ static sbf_vec3 vertex_at(const scene *s, uint32_t vertex) {
   return vertices[vertex];
 }
 
-/* The vertex at the corner of the greatest coordinates. */
+/* The vertex at the corner with the greatest coordinates. */
 static uint32_t far_corner(const scene *s) {
   sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   return sbr_character_find_nearest_vertex(
@@ -118,7 +118,7 @@ START_TEST(a_velocity_that_is_set_is_read_back)
     ck_assert_float_eq_tol(m.angular_velocity.y, w.y, 1e-4f);
     ck_assert_float_eq_tol(m.angular_velocity.z, w.z, 1e-4f);
     sbf_vec3 before = m.center;
-    scene_ticks(&s, 6); /* no weight: it goes straight on */
+    scene_ticks(&s, 6); /* no weight: it continues in a straight line */
     sbf_vec3 now = sbr_character_get_soft_motion(s.world, s.character, 0).center;
     ck_assert_float_eq_tol(now.x - before.x, 0.1f * v.x, 1e-4f);
     ck_assert_float_eq_tol(now.y - before.y, 0.1f * v.y, 1e-4f);
@@ -220,7 +220,7 @@ START_TEST(both_ends_carry_half_a_bar)
 }
 END_TEST
 
-/* Momentum gained is the sum over time of weight and reactions, as of the end of each tick: in the schemes
+/* The gain of momentum is the time integral of weight and reactions, at the end of each tick, in the schemes
  * that step by forces. */
 START_TEST(momentum_changes_by_pin_forces_and_weight)
 {
@@ -296,7 +296,7 @@ START_TEST(a_grabbed_body_hangs_at_its_grab_point)
   ck_assert_double_eq_tol(o.x + (double)at.x, hold.target.x, 0.02);
   sbf_vec3 force = sbr_character_get_grab_force(s.world, s.character, 0, vertex);
   ck_assert_float_eq_tol(force.y, weight, 0.1f * weight);
-  /* Let go it falls as it is. */
+  /* Released, it falls. */
   ck_assert(sbr_character_release_vertex(s.world, s.character, 0, vertex));
   ck_assert(!sbr_character_release_vertex(s.world, s.character, 0, vertex));
   float before = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y;

@@ -26,7 +26,7 @@ static double min_distance(const scene *s, sbf_vec3 center) {
   return min;
 }
 
-/* No point within the ball, on the way or at the end; it hangs on it. */
+/* No point is inside the ball at any tick; the sheet hangs on it. */
 START_TEST(cloth_rests_on_a_ball)
 {
   scene s = begin();
@@ -46,8 +46,8 @@ START_TEST(cloth_rests_on_a_ball)
 }
 END_TEST
 
-/* Nor of coarser cloth and of thicker one, in the middle and beside it, from up to 10 m: what springs throw
- * back under the ball is faster in a tick than it was before. (Points were up to 42 mm inside.) */
+/* Also for coarser and thicker cloth, in the middle and beside it, from up to 10 m. Springs may push a point
+ * under the ball faster in a tick than before. (Points used to be up to 42 mm inside.) */
 START_TEST(no_point_enters_a_ball)
 {
   static const uint32_t cells[3] = {6, 12, CELLS};
@@ -76,8 +76,8 @@ START_TEST(no_point_enters_a_ball)
 }
 END_TEST
 
-/* A ball of 5 cm at 100 m/s, 1.67 m a tick, through a sheet of 4 cm cells held at its rim: the sheet goes
- * along with it, no point of it is passed. */
+/* A ball of 5 cm at 100 m/s, 1.67 m a tick, hits a sheet of 4 cm cells fixed at its rim. The sheet moves with
+ * it, and the ball passes no point of it. */
 START_TEST(a_fast_ball_carries_a_sheet_along)
 {
   scene s = begin();
@@ -104,7 +104,7 @@ START_TEST(a_fast_ball_carries_a_sheet_along)
 }
 END_TEST
 
-/* Four points, 0.2 m apart, that hold together: a plate that cannot tip on a slope. */
+/* Four points, 0.2 m apart, connected by springs: a plate that cannot tip on a slope. */
 static scene plate_on(double degrees, float friction, sbr_shape **shape) {
   scene s = begin();
   float a = (float)(degrees * PI / 180);
@@ -187,7 +187,7 @@ START_TEST(bounces_rise_by_the_restitution)
 }
 END_TEST
 
-/* What stands on a board goes with it; what does not meet it does not. */
+/* A body on a board moves with it; one without contact does not. */
 START_TEST(a_moving_board_carries_and_a_filter_disables_contact)
 {
   for (int contacts = 0; contacts < 2; contacts++) {
@@ -218,7 +218,7 @@ START_TEST(a_moving_board_carries_and_a_filter_disables_contact)
 }
 END_TEST
 
-/* A point that begins inside finds its way out, gently. */
+/* A point that starts inside moves out slowly. */
 START_TEST(points_inside_shapes_move_outside)
 {
   scene s = begin();
@@ -242,7 +242,7 @@ START_TEST(points_inside_shapes_move_outside)
 }
 END_TEST
 
-/* Sleeps on a shape, wakes when it goes. */
+/* It sleeps on a shape and wakes when the shape is removed. */
 START_TEST(a_sleeping_body_wakes_when_its_support_is_removed)
 {
   scene s = begin();

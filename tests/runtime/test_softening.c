@@ -32,7 +32,8 @@ static const struct {
     {SBF_SCHEME_AUTOMATIC, 1e12f, 0.499f}};
 enum { FALLS = 7 };
 
-/* Undamped, so that nothing hides what a scheme adds. Energies of explicit steps waver next to the limit. */
+/* Undamped, so that the scheme's own energy errors show. The energy of explicit steps varies near the
+ * limit. */
 START_TEST(falling_bodies_gain_no_energy)
 {
   scene s = make(falls[_i].young_pa, falls[_i].poisson, falls[_i].scheme);
@@ -71,12 +72,12 @@ START_TEST(softening_stops_at_the_budget)
     ck_assert_uint_ge(substeps, 96 * SBRI_MAX_SUBSTEPS / 100);
     ck_assert_float_lt(island->stability.softened_bulk, 1);
   }
-  if (_i == 1) ck_assert_float_gt(island->stability.softened_shear, 0.2f); /* the bulk modulus goes first */
+  if (_i == 1) ck_assert_float_gt(island->stability.softened_shear, 0.2f); /* the bulk modulus is first */
   scene_free(&s);
 }
 END_TEST
 
-/* A corner is drawn to within a ten thousandth of a cell of its neighbour: its elements alone give way. */
+/* A corner is moved to within a ten thousandth of a cell of its neighbour: only its elements are softened. */
 START_TEST(a_sliver_does_not_soften_its_neighbours)
 {
   lattice_box box =

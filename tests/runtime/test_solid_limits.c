@@ -45,7 +45,7 @@ static void sum_momenta(double sums[6]) {
   }
 }
 
-/* Hanging along its own weight it would stretch by half; the wall is at a tenth. */
+/* Hanging by its own weight it would stretch by half; the limit is at a tenth. */
 START_TEST(strains_stay_within_their_limits)
 {
   begin(5, 2e4f, true, (sbf_vec3){9.81f, 0, 0});
@@ -60,8 +60,8 @@ START_TEST(strains_stay_within_their_limits)
     ck_assert(health.finite);
     max = i > 30 && health.max_strain > max ? health.max_strain : max;
   }
-  ck_assert_float_gt(max, 0.09f); /* it leans on the wall */
-  ck_assert_float_lt(max, 0.15f); /* one sweep leaves a little */
+  ck_assert_float_gt(max, 0.09f); /* it is at the limit */
+  ck_assert_float_lt(max, 0.15f); /* a single sweep leaves a small error */
   end();
 }
 END_TEST
@@ -91,8 +91,8 @@ START_TEST(limits_conserve_momentum)
 }
 END_TEST
 
-/* One heavy tetrahedron that next to nothing moves, pulled to a stretch and left there: its strain goes the
- * way of the exact flow, in every scheme. */
+/* One heavy tetrahedron, almost at rest, is stretched and released: its plastic strain follows the exact flow
+ * in every scheme. */
 START_TEST(yield_flows_as_specified)
 {
   const sbf_vec3 rest[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -134,7 +134,7 @@ START_TEST(yield_flows_as_specified)
 }
 END_TEST
 
-/* A bar that hangs by its weight and creeps stays longer than it was once the weight is gone. */
+/* A bar that hangs by its weight and creeps stays longer after the weight is removed. */
 START_TEST(yielded_bodies_keep_their_shape)
 {
   float lengths[2];
@@ -158,7 +158,7 @@ START_TEST(yielded_bodies_keep_their_shape)
 }
 END_TEST
 
-/* The half that a weight map makes stronger does not yield. */
+/* The half that a weight map strengthens does not yield. */
 START_TEST(weight_maps_select_where_limits_act)
 {
   begin(10, 1e5f, false, (sbf_vec3){0, 0, 0});

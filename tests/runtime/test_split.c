@@ -16,7 +16,7 @@ static lattice_box box;
 static scene s;
 enum { COLUMNS = 20, ROWS = 3 }; /* quads of its skin, along the top */
 
-static const float SPEED = 2; /* m/s: slow enough that it finds the weakest way */
+static const float SPEED = 2; /* m/s: slow enough to tear at the weakest section */
 static const float WEAK_FROM = 0.45f, WEAK_TO = 0.55f;
 
 static void weaken_middle(void) {
@@ -32,7 +32,7 @@ static void weaken_middle(void) {
   body->weight_maps = (sbf_weight_map_list){map, 1};
 }
 
-/* The tetrahedron that holds the place, and its weights there. */
+/* The tetrahedron that contains the position, and its weights there. */
 static sbf_uint4 find_element(sbfi_d3 at, sbf_vec4 *weights) {
   for (uint32_t t = 0; t < box.tetrahedron_count; t++) {
     sbfi_tetrahedron element;
@@ -113,7 +113,7 @@ static uint32_t corner(uint32_t t, uint32_t k) {
   return slot;
 }
 
-/* Parts that the whole tetrahedra make by sharing points. */
+/* Number of parts of the whole tetrahedra that share points. */
 static uint32_t count_parts(void) {
   const uint32_t *torn = sbri_torn(&s.world->characters[0]);
   uint32_t slots = s.model->slot_count, *group = calloc(slots, sizeof *group), parts = 0;

@@ -1,5 +1,5 @@
-/* A cloth whose tear jumps from one side of a point to the other: the point is all that the halves hang on
- * each other by, and splits. */
+/* A cloth whose tear jumps from one side of a point to the other. The point is the last connection of the
+ * halves, and splits. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,9 +32,9 @@ typedef struct spring_list {
 } spring_list;
 static spring_list weak, strong;
 
-/* Springs from half to half are weak, all others hold anything. */
+/* Springs between the halves are weak, all others never tear. */
 static void add(uint32_t x, uint32_t z, uint32_t to_x, uint32_t to_z) {
-  if (to_x > CELLS || to_z > CELLS) return; /* one below 0 too */
+  if (to_x > CELLS || to_z > CELLS) return; /* one also below 0 */
   spring_list *list = side_of(x, z) * side_of(to_x, to_z) < 0 ? &weak : &strong;
   list->ends[list->count++] = (sbf_uint2){{point(x, z), point(to_x, to_z)}};
 }
@@ -47,7 +47,7 @@ static void fill_set(sbf_spring_set *set, const spring_list *list, float stiffne
   set->stiffness = (sbf_f32_list){stiffness, 1};
   set->tear_strain = tear_strain;
   float *pressed = sbf_asset_allocate(s.asset, 1, sizeof *pressed);
-  *pressed = 0.5f; /* rows that move take along how springs are pressed */
+  *pressed = 0.5f; /* rows that move keep the slack of their springs */
   set->compression_ratio = (sbf_f32_list){pressed, 1};
 }
 
@@ -81,7 +81,8 @@ static void begin(sbf_scheme scheme, uint32_t tear_points) {
   pull_apart();
 }
 
-/* Parts that whole springs make of the points that are in use; links and rows of points must agree. */
+/* Number of parts of the used points that are connected by whole springs. Links and rows of points must
+ * agree. */
 static uint32_t count_parts(void) {
   const sbri_character *c = &s.world->characters[0];
   const sbri_island island = sbri_island_now(c, &s.model->islands[0]);
@@ -211,7 +212,7 @@ START_TEST(every_lane_width_gives_the_same_bits)
 }
 END_TEST
 
-/* Room for one copy, which the second time is taken. */
+/* Space for one copy, which is used up the second time. */
 START_TEST(insufficient_storage_is_reported)
 {
   begin(SBF_SCHEME_SYMPLECTIC, 1);

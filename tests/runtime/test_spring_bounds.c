@@ -12,8 +12,7 @@ static const sbf_scheme schemes[] = {
     SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN};
 enum { SCHEME_COUNT = 4, EXPLICIT_EULER = 2 };
 
-/* A mass of 1 kg that hangs from a spring of 1 m and 40 N/m: it would stretch by 0.245 m and fall by twice
- * that. */
+/* A mass of 1 kg on a spring of 1 m and 40 N/m: its static stretch is 0.245 m, and it falls by twice that. */
 static scene hanging(int scheme, float stretch_damping) {
   scene s = scene_begin();
   const sbf_vec3 positions[] = {{0, 0, 0}, {0, -1, 0}};
@@ -184,7 +183,7 @@ START_TEST(a_torn_spring_stops_and_is_reported)
 }
 END_TEST
 
-/* Many at once: all are counted, sixteen are told. */
+/* Many in one tick: all are counted, sixteen are reported. */
 START_TEST(events_of_tears_are_bounded)
 {
   enum { POINTS = 40 };

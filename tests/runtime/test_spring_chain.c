@@ -197,8 +197,8 @@ static float clearance_of(const sbf_chain_collider *c, sbf_vec3 p, float radius)
   return c->inside ? c->radius - radius - distance : distance - radius - c->radius;
 }
 
-/* A link that falls from level: each collider stops its end. One push a step and the length restored after
- * it, as in VRM, leave some of the depth. */
+/* A link falls from level, and each collider stops its end. With a single correction per step and the length
+ * restored afterwards, as in VRM, some penetration is left. */
 static float min_clearance(const sbf_chain_collider *shape, bool collides, float *last) {
   static const uint32_t first = 0;
   const spring_values v = {2, 3, 0.01f, {0, -30, 0}, SBF_NONE};
@@ -237,7 +237,7 @@ START_TEST(ends_stay_out_of_colliders_or_inside)
 }
 END_TEST
 
-/* Nothing leads out of the middle of a sphere, and nothing has a direction at a radius of 0. */
+/* The centre of a sphere has no direction outwards, nor has a collider of radius 0. */
 START_TEST(an_end_in_the_middle_of_a_collider_stays_finite)
 {
   static const uint32_t first = 0;

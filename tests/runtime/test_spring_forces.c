@@ -1,5 +1,5 @@
-/* Springs that push otherwise than they pull, in every scheme that has forces: a mass on one of 1 m along x,
- * drawn out or pressed by a constant acceleration. */
+/* Springs with different stiffness in compression and tension, in every scheme with forces: a mass on one of
+ * 1 m along x, pulled or compressed by a constant acceleration. */
 #include <math.h>
 
 #include "harness.h"
@@ -30,7 +30,7 @@ static scene mass_on_a_spring(int scheme, const float *ratio, float acceleration
   return s;
 }
 
-/* Where it comes to rest: m a / k beyond 1 m, or m a / (r k) short of it; and what the spring then holds. */
+/* Rest position: m a / k beyond 1 m, or m a / (r k) short of it, and the spring's force there. */
 static void check(int scheme, const float *ratio, float tear_strain) {
   for (int side = -1; side <= 1; side += 2) {
     scene s = mass_on_a_spring(scheme, ratio, (float)side * PULL_M_S2, tear_strain);
@@ -56,7 +56,7 @@ START_TEST(compressed_springs_have_their_own_stiffness)
 }
 END_TEST
 
-/* A string: pressed, it gives way, and the mass falls. */
+/* A string has no force in compression, so the mass falls. */
 START_TEST(strings_only_pull)
 {
   static const float ratio = 0;

@@ -1,5 +1,5 @@
-/* Bones that squash: exact after a step of their place, at any tick; of the same volume; with what they
- * carry. */
+/* Bones that squash: exact after a step of their position, for any tick length, with constant volume;
+ * attached bones follow. */
 #include <math.h>
 
 #include "gait_stage.h"
@@ -11,8 +11,8 @@
 enum { BONES = 3 };
 static const float HZ = 2.1f, RATIO = 0.3f, LENGTH = 0.25f, STRENGTH = 0.7f, LIMIT = 0.6f, LIFT = 0.2f;
 
-/* A body of two bones, one above the other, and one that neither hangs on. A clip lifts the lower one from
- * one tick to the next. */
+/* A body of two bones, one above the other, and one attached to neither. A clip lifts the lower one within a
+ * tick. */
 static void fill(sbf_asset *a) {
   static const float lifted[3] = {0, 0.1f + 0.2f, 0};
   sbf_bone *bones = sbf_asset_allocate(a, BONES, sizeof *bones);
@@ -48,8 +48,8 @@ static float tick(gait_stage *s) {
   return sbri_gait_stretch(&s->rig, s->state, 0, 1);
 }
 
-/* With r = 2, e = y - x obeys e'' + 2 z w e' + w^2 e = -x'': a way of 1 that is made evenly in h starts it
- * with -1/h, and its end with as much the other way. Double precision. */
+/* With r = 2, e = y - x obeys e'' + 2 z w e' + w^2 e = -x''. A linear motion by 1 in h starts it with -1/h,
+ * and its end adds the opposite. Double precision. */
 static double kick(double t) {
   double w = 2 * 3.14159265358979 * (double)HZ, z = (double)RATIO, u = w * sqrt(1 - z * z);
   return t <= 0 ? 0 : exp(-z * w * t) * sin(u * t) / u;
@@ -74,7 +74,7 @@ START_TEST(a_step_of_position_squashes_exactly_at_any_tick)
       ck_assert_double_gt(is, 1 / (1 + (double)LIMIT));
       ck_assert_double_lt(is, 1 + (double)LIMIT);
     }
-    if (h < 0.05) { /* pressed as it is thrown up, then longer; over a quarter of a second it goes gently */
+    if (h < 0.05) { /* compressed, then stretched; in a step of a quarter of a second only weakly */
       ck_assert_double_lt(min, 0.8);
       ck_assert_double_gt(max, 1.1);
     }

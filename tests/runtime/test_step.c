@@ -49,7 +49,7 @@ START_TEST(any_number_of_threads_gives_the_same_bits)
 }
 END_TEST
 
-/* ---- Bodies that lose themselves ---- */
+/* ---- Bodies that recover ---- */
 
 static scene walker(void) {
   scene s = scene_begin();

@@ -37,7 +37,7 @@ START_TEST(substeps_are_sufficient_and_hardly_more)
     scene s = section(moduli[i], 0);
     scene_start(&s);
     uint32_t needed = sbr_model_get_substeps(s.model);
-    ck_assert_double_lt(growth(&s), 4); /* it swings, the more the nearer the bound */
+    ck_assert_double_lt(growth(&s), 4); /* it vibrates more, the nearer the bound */
     scene_free(&s);
 
     if (needed < 8) continue; /* rounding up leaves a wide margin */
@@ -79,7 +79,7 @@ START_TEST(stretched_springs_need_more_up_to_a_bound)
 }
 END_TEST
 
-/* Numbers beyond what an integer holds are not turned into one: each machine would make another of it. */
+/* Numbers beyond the range of an integer are not converted, because the result differs between machines. */
 START_TEST(extremely_stiff_bodies_have_bounded_substeps)
 {
   const double frequencies[] = {1e9, 1e30, INFINITY, (double)NAN};
@@ -95,7 +95,7 @@ START_TEST(extremely_stiff_bodies_have_bounded_substeps)
 }
 END_TEST
 
-/* Thrown into a knot, every point somewhere in a box: springs stretched tenfold and more. */
+/* Scrambled, every point at random in a box: springs stretched tenfold and more. */
 START_TEST(a_body_thrown_into_a_knot_does_not_burst)
 {
   scene s = section(1e5f, 0);
@@ -107,7 +107,7 @@ START_TEST(a_body_thrown_into_a_knot_does_not_burst)
     float *p = &sbri_positions(c)[i].x;
     for (int k = 0; k < 3; k++) { p[k] = 0.5f * (float)(int32_t)random_next(&random) / 2147483648.0f; }
   }
-  sbri_island_states(c)[0].stretch = 0.95f; /* as it would be, had it come there by itself */
+  sbri_island_states(c)[0].stretch = 0.95f; /* the same as if it had reached this state by itself */
   double before = sbr_character_get_body_health(s.world, s.character, 0).elastic_j, max = 0;
   for (int i = 0; i < 300; i++) {
     scene_ticks(&s, 1);

@@ -30,13 +30,13 @@ static void aim(sbri_stance *stance, int about, float angle) {
   *(about ? &stance->hips_pitch : &stance->hips_yaw) = angle;
 }
 
-/* How steeply the way from one bone's head to another's rises in the axes that a rotation has made. */
+/* Slope between the heads of two bones, in the axes of the given rotation. */
 static float rises(const gait_stage *t, uint32_t from, uint32_t to, sbf_quat axes) {
   sbf_vec3 direction = sbri_sub(t->pose[to].position, t->pose[from].position);
   direction = sbri_rotate(sbri_quat_conjugate(axes), direction);
   return atan2f(direction.y, hypotf(direction.x, direction.z));
 }
-/* The same of the body against the world, and of the tail against the body. */
+/* Slope of the body in the world, and of the tail relative to the body. */
 static float climbs(const gait_stage *t) {
   return rises(t, HIPS, CHEST, sbri_quat_identity());
 }
@@ -50,7 +50,7 @@ static double answer(double f, double z, double t) {
   return 1 - exp(-z * w * t) * (cos(u * t) + z * w / u * sin(u * t));
 }
 
-/* In the air, where no ground is in the way. */
+/* In the air, far from any ground. */
 static void tick(gait_stage *t, sbri_stance *stance, float tick_s) {
   t->input.tick_s = tick_s;
   stance->root = (sbr_transform){{0, 10, 0}, sbri_quat_identity()};
@@ -163,8 +163,8 @@ START_TEST(placed_on_a_slope_it_is_straight_at_once)
 }
 END_TEST
 
-/* The body on a rise, the tail still over the level before it: the end of the tail, of the character that
- * starts there and of the one that walks there, keeps over the ground. */
+/* The body is on a rise, the tail still over the level before it. The tail's end stays above the ground, for
+ * a character that starts there and for one that walks there. */
 START_TEST(tail_stays_over_the_ground_where_it_bends)
 {
   static const float starts[] = {1.1f, -0.3f};

@@ -51,7 +51,7 @@ static sbfi_d3 position(const sbri_point *points, uint32_t slot) {
   return (sbfi_d3){points[slot].x, points[slot].y, points[slot].z};
 }
 
-/* What double precision says, by slots. */
+/* Forces in double precision, by slots. */
 static void expected_forces(sbfi_d3 *sums) {
   const sbri_body *body = &s.model->bodies[0];
   for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
@@ -191,8 +191,8 @@ START_TEST(the_watched_strains_are_recorded)
 }
 END_TEST
 
-/* A point is pushed into its body: only blocks that hold one of its elements are marked, and all of those
- * with an element below half its volume. */
+/* A point is pushed into its body: only blocks with one of its elements are marked, and all of those with an
+ * element below half its volume. */
 START_TEST(blocks_of_compressed_elements_are_marked)
 {
   begin(0);
@@ -273,14 +273,14 @@ END_TEST
 
 START_TEST(a_beam_oscillates_at_its_lowest_frequency)
 {
-  /* So weakly loaded that it stays linear; the mode itself is tested in tests/mechanics. */
+  /* With a load small enough for linear strain; tests/mechanics tests the mode itself. */
   begin_beam(10, 0, (sbf_vec3){0, -0.02f, 0});
   sbf_spring_network network = lattice_box_network(&box);
   double *scratch = calloc(16 * (size_t)box.point_count, sizeof *scratch);
   double exact = 2 * 3.14159265358979 / sbf_network_lowest(&network, true, scratch), low = 0;
   free(scratch);
-  /* From rest it falls and comes back after a period: the mean of the height over whole periods is where it
-   * would hang, and it crosses that twice in each. */
+  /* From rest it falls and returns after a period. Its mean height over whole periods is its static height,
+   * which it crosses twice in each. */
   uint32_t ticks = 400, crossings = 0;
   float heights[400];
   for (uint32_t i = 0; i < ticks; i++) {
@@ -356,8 +356,8 @@ START_TEST(far_from_the_world_s_origin_as_near)
 }
 END_TEST
 
-/* Flattened to a plane, mirrored, thrown into a heap: no number is lost, and after a second the shape is
- * back, by itself or by being put there. */
+/* Flattened to a plane, mirrored, scrambled: no number becomes invalid, and after a second the shape is back,
+ * by itself or by recovery. */
 START_TEST(bad_starts_recover)
 {
   begin(0);
@@ -376,8 +376,8 @@ END_TEST
 
 START_TEST(substeps_increase_as_it_stiffens)
 {
-  /* Softer than its weight by far: it stretches to more than twice its length, where the substeps of rest
-   * would not do. */
+  /* Much softer than its weight requires: it stretches to more than twice its length, where the substeps for
+   * rest would be unstable. */
   box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0.2f, 0.2f}, 10, 2, 2, 1000, 5e3f, 0.4f);
   lattice_box_hold(&box);
   s = scene_begin();

@@ -45,7 +45,7 @@ static void begin_element(const sbf_vec3 rest[4], const float masses[4], float p
   s.model_options.scheme = SBF_SCHEME_POSITION_BASED;
 }
 
-/* What a short step moves is h^2 w f, of the forces of the energy, inside out as well. */
+/* A short step moves by h^2 w f with the energy's forces, also when inverted. */
 START_TEST(a_short_step_follows_the_energy)
 {
   const sbf_vec3 rest[] = {{0, 0, 0}, {0.3f, 0.1f, 0}, {0, 0.4f, 0}, {0.1f, 0, 0.2f}};
@@ -86,9 +86,9 @@ START_TEST(a_short_step_follows_the_energy)
 }
 END_TEST
 
-/* Of a sliver, 100 to 100,000 times as wide as high, float's digits leave little or nothing of |cof F|^2: it
- * tumbles and falls as it should. It was put back in each tick and stayed where it was; later it stood still
- * where it was at less than half of its volume, as positions that were not kept up to date were read. */
+/* In a sliver 100 to 100,000 times as wide as high, single precision gives |cof F|^2 few or no digits. It
+ * tumbles and falls correctly. (It used to be put back in each tick, and later stayed still below half of its
+ * volume, because outdated positions were read.) */
 START_TEST(a_sliver_falls)
 {
   static const float heights[] = {1e-3f, 5e-4f, 3e-4f, 2e-4f, 1e-4f, 3e-5f, 1e-5f, 1e-6f};
@@ -142,7 +142,8 @@ static double exact_tip(void) {
   return tip;
 }
 
-/* The bias of docs/solvers.md: where a beam comes to rest, against the energy's least, by substeps. */
+/* The bias in docs/solvers.md: difference of a beam's rest position from the minimum of energy, by
+ * substeps. */
 START_TEST(a_beam_rests_near_its_static_deflection)
 {
   static const struct {
@@ -171,7 +172,7 @@ START_TEST(a_beam_swings_near_its_lowest_frequency)
   double *scratch = calloc(16 * (size_t)box.point_count, sizeof *scratch);
   double exact = 2 * 3.14159265358979 / sbf_network_lowest(&network, true, scratch), first = -1, last = -1;
   free(scratch);
-  /* It loses amplitude at the ratio W / 2, here about 1 in a hundred a period: minima tell the period. */
+  /* It loses amplitude at the ratio W / 2, here about 1 % per period. The minima give the period. */
   float heights[200];
   uint32_t minima = 0;
   for (uint32_t i = 0; i < 200; i++) {
@@ -231,7 +232,7 @@ START_TEST(far_from_the_world_s_origin_as_near)
 }
 END_TEST
 
-/* Its own damping, as of the energy's: a free bar that is stretched comes to rest without it never. */
+/* Its own damping equals the energy's: without damping, a stretched free bar never comes to rest. */
 START_TEST(its_damping_removes_energy)
 {
   double left[2];
@@ -254,8 +255,8 @@ END_TEST
 
 /* ---- Hard cases ---- */
 
-/* Flattened to a plane, mirrored, all in one place, thrown into a heap: no number is lost, and after a second
- * the shape is back, by itself or by being put there. */
+/* Flattened to a plane, mirrored, all at one position, scrambled: no number becomes invalid, and after a
+ * second the shape is back, by itself or by recovery. */
 START_TEST(bad_starts_recover)
 {
   begin(5, 1e5f, 0.4f, false, (sbf_vec3){0, 0, 0});
@@ -267,9 +268,9 @@ START_TEST(bad_starts_recover)
 }
 END_TEST
 
-/* Left to the runtime: explicit, until one is inside out; then position-based until it has been well for a
- * while. A corner that was pushed through one cell comes back by itself; through several, the body stays
- * folded, every element sound in its own right, and is put back. */
+/* With the automatic scheme: explicit until an element inverts, then position-based until all have been valid
+ * for a while. A corner pushed through one cell recovers by itself. Pushed through several, the body stays
+ * collapsed with every element valid, and is put back. */
 START_TEST(the_router_recovers_by_it)
 {
   begin(5, 1e5f, 0.4f, false, (sbf_vec3){0, 0, 0});

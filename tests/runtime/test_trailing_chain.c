@@ -159,7 +159,7 @@ START_TEST(the_chain_rests_on_the_ground)
 }
 END_TEST
 
-/* A segment may be there for its number alone, without length. */
+/* A segment without length may exist for its index alone. */
 START_TEST(empty_links_have_no_length)
 {
   static const float spacing[BONES] = {0.2f, 0, 0.2f, 0, 0, 0.3f, 0.2f, 0.2f};
@@ -207,7 +207,7 @@ START_TEST(straightening_takes_the_same_time_at_any_tick)
 }
 END_TEST
 
-/* Twice round, over where headings begin again, no bone turns faster than the head and its own bend do. */
+/* Twice round, past the angle where headings wrap: no bone rotates faster than the head plus its own bend. */
 START_TEST(nothing_jumps_where_headings_wrap_around)
 {
   for (int kind = 0; kind < 2; kind++) {

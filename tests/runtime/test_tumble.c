@@ -1,5 +1,5 @@
-/* Persons of 14 and 20 parts fall down a flight of eight steps, of boxes with a floor below, and down the
- * stairs that are a ground; and what tips or hangs comes to rest where it should. */
+/* Persons of 14 and 20 parts fall down eight steps, made of boxes with a floor below, and down stairs of a
+ * ground. Tipping and hanging bodies come to rest in their expected positions. */
 #include <math.h>
 
 #include "collision_scenes.h"
@@ -17,8 +17,8 @@ typedef struct flight {
   uint32_t parts;
 } flight;
 
-/* At the head of the stairs, which go down towards -Z; the first box is where one stands, and wide. Those of
- * the ground go on for ever, towards +Z. */
+/* At the top of the stairs, which descend towards -Z. The first box is a wide landing. The ground's stairs
+ * are endless, towards +Z. */
 static flight begin(bool whole, bool boxes) {
   flight f = {.scene = whole ? whole_person() : person(), .parts = whole ? ALL_PARTS : PARTS};
   f.scene.character_definition.position = (sbr_double3){0, 0.02, boxes ? 0.25 : 0};
@@ -60,9 +60,8 @@ static float fastest(const flight *f) {
 }
 
 typedef struct fall {
-  float separation, on_the_way,
-      at_rest; /* m, rad: of joints and limits, until it is to be at rest and then */
-  int moved;   /* ticks until nothing moves by more than 1 mm/s any more */
+  float separation, on_the_way, at_rest; /* m, rad: errors of joints and limits, in motion and at rest */
+  int moved;                             /* ticks until all speeds stay below 1 mm/s */
 } fall;
 
 static fall tumble(flight *f, int ticks, int rests_from) {
@@ -130,7 +129,7 @@ START_TEST(bodies_that_fall_down_stairs_come_to_rest)
 }
 END_TEST
 
-/* A plank let go level over stairs tips until it lies along them, on their nosings alone: its corners are
+/* A plank released level over stairs tips until it lies along them on their nosings alone. Its corners are
  * over treads that it does not reach. */
 START_TEST(a_plank_rests_across_nosings)
 {
@@ -154,7 +153,7 @@ START_TEST(a_plank_rests_across_nosings)
 }
 END_TEST
 
-/* A cube whose middle is beyond a nosing, over the step below, meets the nosing as it falls on it. */
+/* A cube whose middle is beyond a nosing, over the step below, hits the nosing as it falls. */
 START_TEST(parts_over_a_nosing_are_in_contact)
 {
   const float half = 0.05f;
@@ -182,8 +181,8 @@ START_TEST(parts_over_a_nosing_are_in_contact)
 }
 END_TEST
 
-/* A post that bears a weight aside, whose common centre is 4 mm inside of the post's foot or beyond it: one
- * stands and sleeps, the other tips, however slowly it begins to. */
+/* A post with a weight to the side, whose common centre of mass is 4 mm inside the post's foot or outside it.
+ * The first stands and sleeps, the second tips, however slowly it starts. */
 START_TEST(tipping_bodies_do_not_fall_asleep)
 {
   bool tips = _i;
@@ -207,8 +206,8 @@ START_TEST(tipping_bodies_do_not_fall_asleep)
 }
 END_TEST
 
-/* A limp leg without friction sleeps within 4 s, near where it hangs, where its flesh alone takes longer; a
- * push wakes it. */
+/* A passive leg without friction sleeps within 4 s, near its hanging position. Its flesh alone takes longer.
+ * An impulse wakes it. */
 START_TEST(bodies_fall_asleep_after_swinging)
 {
   scene s = person();

@@ -12,7 +12,7 @@ static float distance(sbf_vec3 a, sbf_vec3 b) {
   return sbri_length(sbri_sub(a, b));
 }
 
-/* One after the other: the order of a call's arguments is the compiler's. */
+/* In separate statements: the compiler chooses the order of a call's arguments. */
 static sbf_vec3 next_point(uint32_t *seed, float scale) {
   float x = random_between(seed, -1, 1), y = random_between(seed, -1, 1), z = random_between(seed, -1, 1);
   return sbri_vec3(scale * x, scale * y, scale * z);
@@ -126,7 +126,8 @@ START_TEST(a_knee_keeps_its_limit_and_the_foot_its_rotation)
     ck_assert_float_eq_tol(sbri_length(sbri_sub(frames[2].position, target)), r.error, 1e-4f);
     sbf_quat off = sbri_quat_multiply(frames[2].rotation, sbri_quat_conjugate(wanted));
     ck_assert_float_le(sbri_length(sbri_quat_log(off)), 1e-3f);
-    /* Bent by 1.5 rad at most the ankle is 1.46 m from the hip at least, by 0.1 at least 1.998 at most. */
+    /* Bent by at most 1.5 rad, the ankle is at least 1.46 m from the hip; bent by at least 0.1, at most 1.998
+     * m. */
     if (away > 1.5f && away < 1.99f) reached += r.reached, folded++;
     if (away < 1.4f) ck_assert_float_ge(r.error, 1.45f - away);
   }

@@ -57,7 +57,7 @@ START_TEST(unsupported_parts_are_reported)
   ck_assert_uint_eq(sbr_model_report_unsupported(s.model, NULL, NULL), 0);
   scene_free(&s);
   s = section();
-  scene_body(&s, 0)->collision.self = true; /* without a face there is nothing to meet */
+  scene_body(&s, 0)->collision.self = true; /* a surface without faces has no contacts */
   scene_body(&s, 0)->surface.polygon_sizes.count = scene_body(&s, 0)->surface.polygon_points.count = 0;
   scene_start(&s);
   heard h = {0, ""};

@@ -1,5 +1,5 @@
-/* Verlet's method without velocities gains without bound where its steps vary; the runtime's do not, as its
- * substeps divide a fixed tick at any frame time. */
+/* Verlet's method without velocities gains energy without bound if its steps vary. The runtime's do not vary,
+ * because its substeps divide a fixed tick at any frame time. */
 #include <math.h>
 
 #include "harness.h"
@@ -7,8 +7,8 @@
 
 static const double HEIGHT_M = 0.02, TICK_S = 1.0 / 60;
 
-/* -1 to 1, by Marsaglia's xorshift (2003): numbers of a congruential generator follow each other too evenly
- * for what gains by chance. */
+/* -1 to 1, by Marsaglia's xorshift (2003). Numbers of a congruential generator are too regular for a random
+ * gain. */
 static double chance(uint32_t *state) {
   *state ^= *state << 13;
   *state ^= *state >> 17;
@@ -57,8 +57,8 @@ static double in_frames(double turn, double jitter, uint32_t frames) {
   return max;
 }
 
-/* In even steps it neither gains nor loses; in uneven ones that it takes for even it gains, the more so the
- * stiffer it is, and hardly where it knows their lengths. */
+/* With equal steps it neither gains nor loses energy. With unequal steps treated as equal it gains, more with
+ * greater stiffness. With known step lengths it hardly gains. */
 START_TEST(verlet_without_velocities_gains_where_steps_vary)
 {
   ck_assert_double_lt(position_verlet(0.1, 0, 20000, false), 1.01);
@@ -73,7 +73,7 @@ START_TEST(frames_of_any_length_gain_nothing)
   static const double turns[] = {0.1, 0.3, 1};
   for (int k = 0; k < 3; k++) {
     double even = in_frames(turns[k], 0, 20000), uneven = in_frames(turns[k], 0.5, 20000);
-    ck_assert_double_lt(even, 1 + 0.2 * turns[k]); /* frames show places between two ticks */
+    ck_assert_double_lt(even, 1 + 0.2 * turns[k]); /* frames interpolate between two ticks */
     ck_assert_msg(uneven < even + 1e-3, "w h %g: %g, in even frames %g", turns[k], uneven, even);
   }
 }

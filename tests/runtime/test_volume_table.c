@@ -14,7 +14,7 @@ static scene section(sbf_pressure_mode mode) {
   return s;
 }
 
-/* Least and greatest volume while the bone is driven to and fro. */
+/* Minimum and maximum volume while the bone moves back and forth. */
 static void shake(scene *s, double *low, double *high) {
   *low = *high = 1;
   for (int i = 0; i < 240; i++) {
@@ -75,8 +75,8 @@ START_TEST(keeping_it_moves_no_body)
 }
 END_TEST
 
-/* A body pressed to a third comes back slowly: each of a substep's four steps asks for a tenth of its volume,
- * and gains some more as its faces grow. */
+/* A body compressed to a third recovers slowly: each of a substep's four steps may change a tenth of its
+ * volume, and a little more as its faces grow. */
 START_TEST(a_large_volume_error_is_corrected_slowly)
 {
   scene s = section(SBF_PRESSURE_MODE_VOLUME);
@@ -104,7 +104,7 @@ START_TEST(a_large_volume_error_is_corrected_slowly)
 }
 END_TEST
 
-/* A surface carried by other points than its own: the corners of a box around it. */
+/* A surface carried by points other than its own: the corners of a box around it. */
 START_TEST(embedded_surfaces_keep_their_volume)
 {
   scene s = section(SBF_PRESSURE_MODE_VOLUME);

@@ -14,8 +14,8 @@ typedef struct key {
   sbf_vec3 axis, translation;
 } key;
 
-/* One pose a key, the first the rest pose if it is of no distance; bones turned at rest by `turned` about
- * axes that differ. */
+/* One pose per key, the first the rest pose if its distance is 0; bones rotated at rest by `turned` about
+ * different axes. */
 static void begin(gait_stage *s, const key *keys, uint32_t count, float turned) {
   sbf_asset *asset = quadruped_asset();
   for (uint32_t b = 0; b < BONES && turned > 0; b++) {
@@ -132,7 +132,7 @@ START_TEST(the_second_half_is_the_mirror_image_of_the_first)
   static const uint32_t across[BONES] = {
       0, 1, 2, 3, 4, 5, 6, 7, 11, 12, 13, 8, 9, 10, 17, 18, 19, 14, 15, 16};
   static const key keys[] = {{0.1f, 0, 0.7f, true, ARM_L, {1, 0.4f, 0.2f}, {0.01f, 0.02f, 0.03f}},
-      {0.2f, 0, 0.3f, false, 2, {0.2f, 1, 0.3f}, {0, 0.01f, 0}}, /* one of them says so for all */
+      {0.2f, 0, 0.3f, false, 2, {0.2f, 1, 0.3f}, {0, 0.01f, 0}}, /* one property applies to all */
       {0.25f, 0, -0.5f, false, ARM_R, {1, 0, 0.1f}, {0, 0, 0}}};
   gait_stage s;
   begin(&s, keys, 3, 0.3f);
@@ -184,7 +184,7 @@ START_TEST(a_walk_becomes_a_run)
 }
 END_TEST
 
-/* The poses' strides are a third longer than the feet's, and they keep step all the same; no foot slides. */
+/* The poses' strides are a third longer than the feet's. Both stay in phase, and no foot slides. */
 START_TEST(a_mirrored_walk_keeps_step_with_the_feet)
 {
   key keys[] = {

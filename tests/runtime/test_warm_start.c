@@ -1,5 +1,5 @@
-/* What touches keep from tick to tick: all of two bodies, whichever of them its places lie on, and whether
- * these are of faces or of rims. */
+/* Contacts store their impulses between ticks: all contacts of two bodies, on either body, of faces and of
+ * edges. */
 #include <stdlib.h>
 
 #include "collision_scenes.h"
@@ -32,7 +32,8 @@ static kind kind_of(const sbri_contact *t) {
 }
 
 typedef struct tally {
-  uint32_t again, known; /* touches that pushed in the tick before and are there again; of these, known */
+  uint32_t again; /* contacts with an impulse in the tick before that exist again */
+  uint32_t known; /* those of them with a stored impulse */
 } tally;
 
 static bool are_same(const sbri_cached_contact *m, const sbri_contact *t) {
@@ -53,8 +54,8 @@ static void advance(scene *s, tally of[KINDS]) {
   }
 }
 
-/* Two sheets hang over a ball, askew on each other: points of each lie on the other, and their rims cross.
- * Nothing that pushed is new in the next tick. */
+/* Two sheets hang over a ball, rotated against each other: points of each lie on the other, and their edges
+ * cross. No contact with an impulse is new in the next tick. */
 START_TEST(contacts_are_matched_in_the_next_tick)
 {
   scene s = rigid_begin();
@@ -79,9 +80,9 @@ START_TEST(contacts_are_matched_in_the_next_tick)
 }
 END_TEST
 
-/* ---- By names ---- */
+/* ---- By ids ---- */
 
-/* Cached contacts of each two bodies are found in their order, wherever they lie. */
+/* Stored contacts of each pair of bodies are found in their order, at any index. */
 START_TEST(cached_contacts_follow_by_body_ids)
 {
   static const uint64_t names[4][2] = {{1, 2}, {2, 1}, {1, 3}, {1, 4}};

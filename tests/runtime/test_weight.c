@@ -1,5 +1,5 @@
-/* Bones that weigh: exact after a step of their place, at any tick, in the world's axes whichever way the
- * body faces; with what they carry; feet stay. */
+/* Bones with weight: exact after a step of their position, for any tick length, in the world's axes for any
+ * heading; attached bones follow; feet stay. */
 #include <math.h>
 
 #include "gait_stage.h"
@@ -26,8 +26,8 @@ static sbf_follower weight_of(uint32_t bone) {
   return follower;
 }
 
-/* A body of two bones, one above the other and somewhat ahead of it, and one that neither hangs on. A clip
- * throws the lower one by WAY along `direction` from one tick to the next. */
+/* A body of two bones, one above the other and slightly ahead of it, and one attached to neither. A clip
+ * moves the lower one by WAY along `direction` within a tick. */
 static void fill(sbf_asset *a, sbf_vec3 direction) {
   float *thrown = sbf_asset_allocate(a, 3, sizeof *thrown);
   sbf_bone *bones = sbf_asset_allocate(a, BONES, sizeof *bones);
@@ -52,8 +52,8 @@ static void begin(gait_stage *s, sbf_vec3 direction, float tick_s, float scale) 
   gait_stage_play(s);
 }
 
-/* With r = 2, e = y - x obeys e'' + 2 z w e' + w^2 e = -x'': a way of 1 that is made evenly in h starts it
- * with -1/h, and its end with as much the other way. Double precision; in lengths, eased. */
+/* With r = 2, e = y - x obeys e'' + 2 z w e' + w^2 e = -x''. A linear motion by 1 in h starts it with -1/h,
+ * and its end adds the opposite. Double precision; in lengths, soft-limited. */
 static double kick(double t) {
   double w = 2 * 3.14159265358979 * (double)HZ, z = (double)RATIO, u = w * sqrt(1 - z * z);
   return t <= 0 ? 0 : exp(-z * w * t) * sin(u * t) / u;
@@ -85,7 +85,7 @@ START_TEST(a_step_of_position_sinks_and_leans_it_exactly_at_any_tick)
         ck_assert_double_lt(fabs(should), (double)LIMIT);
         min = should < min ? should : min, max = should > max ? should : max;
       }
-      if (h < 0.05) { /* it stays behind, then swings over */
+      if (h < 0.05) { /* it lags behind, then swings past */
         ck_assert_double_lt(min, -0.2);
         ck_assert_double_gt(max, 0.05);
       }
@@ -184,7 +184,7 @@ START_TEST(a_body_lags_at_start_and_dives_at_stop_over_planted_feet)
     float leans = leans_ahead(&heavy, body) - leans_ahead(&light, body);
     back = i < 180 && leans < back ? leans : back;
     ahead = i >= 180 && leans > ahead ? leans : ahead;
-    for (uint32_t l = 0; l < heavy.rig.leg_count; l++) { /* it steps as it did, and where */
+    for (uint32_t l = 0; l < heavy.rig.leg_count; l++) { /* its steps are unchanged */
       const sbf_vec3 a = heavy.pose[heavy.rig.legs[l].foot].position;
       const sbf_vec3 b = light.pose[light.rig.legs[l].foot].position;
       if (heavy.state->feet[l].planted && light.state->feet[l].planted)
@@ -198,7 +198,7 @@ START_TEST(a_body_lags_at_start_and_dives_at_stop_over_planted_feet)
 }
 END_TEST
 
-/* Through four turns and more, so that headings wrap; what has no legs moves as it is driven. */
+/* Through four turns and more, so that headings wrap. A body without legs moves as it is driven. */
 START_TEST(it_leans_equally_in_every_heading)
 {
   gait_stage stages[2];

@@ -74,7 +74,7 @@ START_TEST(a_full_world_returns_an_error)
   ck_assert_uint_eq(third.value, 0);
   sbr_character_destroy(s.world, second);
   ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &third, &error), SBF_OK);
-  ck_assert_uint_ne(third.value, second.value); /* the old handle names nothing now */
+  ck_assert_uint_ne(third.value, second.value); /* the old handle is invalid now */
   ck_assert_double_eq(sbr_character_get_body_health(s.world, second, 0).volume_ratio, 0);
   ck_assert_uint_eq(sbr_character_get_skin(s.world, second, 0, NULL, NULL, NULL, 0), 0);
   scene_ticks(&s, 2);

@@ -1,4 +1,4 @@
-// Chromium for the tests: opened without a window, drawing by software, and watched for what must not happen.
+// Chromium for the tests: without a window, with software drawing. Collects errors of the page.
 import { createRequire } from 'node:module';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';

@@ -1,4 +1,4 @@
-// Opens the pages of docs/web.md from a server: the first tells how far it went, three.js draws a lizard that moves.
+// Opens the pages of docs/web.md from a server: the first prints the distance walked, in the second three.js draws a moving lizard.
 // Usage: node document_in_chromium.mjs FOLDER-OF-NODE_MODULES ADDRESS PICTURES
 import { open } from './chromium.mjs';
 

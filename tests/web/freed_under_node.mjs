@@ -63,7 +63,7 @@ for (const one of [collider, replay, all.character]) one.free();
 const whole = made();
 expect(walk(whole) === walk(made()), 'what was freed twice is still in use');
 
-// What was freed says so.
+// Freed objects throw an error.
 throws('a freed world', TypeError, /this world was freed/, () => all.world.step());
 throws('a character of a freed world', TypeError, /this character was freed/, () => all.character.skin());
 throws('a freed character', TypeError, /this character was freed/, () => second.distance);
@@ -72,7 +72,7 @@ throws('a freed replay', TypeError, /this replay was freed/, () => replay.frame(
 throws('a freed model', TypeError, /this model was freed/, () => sbfmt.world().add(all.model));
 throws('a freed asset', TypeError, /this asset was freed/, () => all.asset.model());
 
-// Wrong calls are told from ones that the library refuses.
+// Wrong arguments and refusals of the library throw different errors.
 throws('no model', TypeError, /asset\.model\(\)/, () => whole.world.add());
 throws('a model of another library', TypeError, /two libraries/, ((other) => () => other.world().add(whole.model))(await load()));
 for (const [what, call] of Object.entries({

@@ -1,4 +1,4 @@
-// Levels of detail, height fields and recordings as test_more.py asks, and prints what came of it as JSON.
+// Levels of detail, height fields and recordings for test_more.py. Prints the results as JSON.
 // Usage: node more_under_node.mjs SBFMT.JS BUNDLE RECORDING-TO-WRITE
 import { readFile, writeFile } from 'node:fs/promises';
 import { pathToFileURL } from 'node:url';
@@ -97,7 +97,7 @@ throws(() => world.views(new Array(5).fill({})), TypeError, 'a fifth view');
 throws(() => far.shown('rarely'), TypeError, 'a way to be shown that there is not');
 world.free();
 
-// A recording gives the same state again, tells another world apart, and is the program's own form.
+// A recording gives the same state again, detects another world, and has the program's own format.
 const land = { kind: 'noise', height: 0.1, seed: 5 }, plain = asset.model();
 const made = () => {
   const one = sbfmt.world({ ground: land });

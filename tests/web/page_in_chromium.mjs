@@ -1,4 +1,4 @@
-// Opens the exported page and works it as a visitor would; prints what came of it as one line of JSON.
+// Opens the exported page and uses it like a visitor. Prints the results as one line of JSON.
 // Usage: node page_in_chromium.mjs FOLDER-OF-NODE_MODULES PAGE PICTURES RUN
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
@@ -113,7 +113,7 @@ const spot = await tab.evaluate(() => {
 });
 expect(spot, 'no ray meets the character');
 if (spot) {
-  // A pointer that is merely down does nothing yet: a second finger may come, and the two zoom.
+  // A pressed pointer alone has no effect yet, because a second finger may follow, and two fingers zoom.
   const touches = (...at) => tab.evaluate(([kind, id, [x, y]]) => viewer.canvas.dispatchEvent(
     new PointerEvent(kind, { pointerId: id, clientX: x, clientY: y, button: 0, pointerType: 'touch' })), at);
   const far = await tab.evaluate(() => {
@@ -184,7 +184,7 @@ const { hash, us } = await tab.evaluate(([count, [forward, turn], land]) => {
   return { hash: viewer.hashAfter(count, forward, turn, land), us: 1000 * (performance.now() - began) / count };
 }, [frames, drive, ground]);
 
-// Another file replaces it. An invalid file changes nothing, and the page says why.
+// Another file replaces it. An invalid file changes nothing, and the page shows the reason.
 const shown = () => tab.evaluate(() => {
   viewer.step(1 / 60);
   viewer.draw();

@@ -44,7 +44,7 @@ for (const { name, page, frames, drive, levels, colors } of JSON.parse(pages)) {
   const made = await tab.evaluate(() => (viewer.asset.bones.length ? viewer.asset.model({ detailLevels: true }).detailLevels : []).map(({ kind }) => kind).filter((kind) => /jiggle|bones/.test(kind)));
   expect(String(detailLevels) === String(made), `${name}: the panel offers ${detailLevels}, the runtime has ${made}`);
 
-  // What is inside can be shown if there is any of it, and only then.
+  // The interior can be shown only if there is one.
   const inside = await tab.evaluate(() => {
     viewer.choices.level = 0;
     viewer.restart();
@@ -53,7 +53,7 @@ for (const { name, page, frames, drive, levels, colors } of JSON.parse(pages)) {
   });
   for (const [id, there] of Object.entries(inside)) expect(await tab.isDisabled(`#${id}`) === !there, `${name}: the switch of ${id}, of which there ${there ? 'are' : 'are none'}`);
 
-  // What the image of a texture shows is on the skin, the right way up: above and below the middle of the picture have its colours, lit.
+  // The image of a texture is on the skin, upright: above and below the middle of the picture have its colours, lit.
   if (colors) {
     const seen = await tab.evaluate(() => {
       viewer.restart({ kind: 'flat' });

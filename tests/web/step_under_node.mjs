@@ -1,4 +1,4 @@
-// Steps bundles as test_hashes.py asks, and prints what came of it as JSON.
+// Steps bundles for test_hashes.py. Prints the results as JSON.
 // Usage: node step_under_node.mjs SBFMT.JS JOBS
 import { readFile } from 'node:fs/promises';
 import { pathToFileURL } from 'node:url';
@@ -40,7 +40,7 @@ for (const job of JSON.parse(process.argv[3])) {
   world.free();
 }
 
-// What is broken is refused, and nothing of it stays behind.
+// A damaged bundle is refused, and all of its memory is freed.
 const [job] = JSON.parse(process.argv[3]);
 const good = await readFile(job.file);
 let refused = 0;

@@ -1,4 +1,4 @@
-// Opens the page of examples/three from disk and works it as a visitor would; prints what came of it as one line of JSON.
+// Opens the page of examples/three from disk and uses it like a visitor. Prints the results as one line of JSON.
 // Usage: node three_page_in_chromium.mjs FOLDER-OF-NODE_MODULES PAGE PICTURES
 import { pathToFileURL } from 'node:url';
 

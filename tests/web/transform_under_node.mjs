@@ -1,4 +1,4 @@
-// glTF Transform edits a .glb with soft bodies. Prints what became of each edit.
+// glTF Transform edits a .glb with soft bodies. Prints the result of each edit.
 // Usage: node transform_under_node.mjs IN.glb, in a project with sbfmt and @gltf-transform
 import { NodeIO } from '@gltf-transform/core';
 import { dedup, prune, quantize } from '@gltf-transform/functions';

@@ -357,7 +357,7 @@ static bool embed_surfaces(work *w, sbfi_progress progress) {
   return true;
 }
 
-/* Whether recipes make all bones of the skin rigid: then it is meant to move with its bones. */
+/* Whether recipes make all bones of the skin rigid: then it moves with its bones. */
 static bool is_rigid_by_recipe(const sbf_asset *asset, const sbf_skin *skin) {
   for (uint32_t i = 0; i < skin->bones.count; i++) {
     const sbf_section_recipe *recipe = sbfi_section_recipe_find(asset, (int32_t)skin->bones.at[i]);

@@ -76,7 +76,7 @@ static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double min_width
   f->radius = sqrt(radius2) * (1 + 1e-6) + f->rounding;
   f->spread = sqrt(max_spread) * (1 + 1e-6);
   f->origin = low;
-  /* At most four bins per tetrahedron, however long and thin the body is. */
+  /* At most four bins per tetrahedron, also for a long and thin body. */
   for (f->width = fmax(min_width * f->radius, 1e-30);; f->width *= 1.25) {
     double all = 1;
     for (int k = 0; k < 3; k++) all *= floor(sizes[k] / f->width) + 1;

@@ -101,7 +101,7 @@ static double radii_of(const sbfi_winding_tree *tree, const sbfi_soup *soup, dou
 static void box_of(const sbfi_soup *soup, uint32_t triangle, sbfi_box *box) {
   for (int k = 0; k < 3; k++) {
     sbfi_d3 p = soup->points[soup->triangles[triangle][k]];
-    /* Positions come from single precision, so nothing is lost. */
+    /* Positions come from single precision, so the conversion is exact. */
     const float at[3] = {(float)p.x, (float)p.y, (float)p.z};
     for (int axis = 0; axis < 3; axis++) {
       if (k == 0 || at[axis] < box->low[axis]) box->low[axis] = at[axis];

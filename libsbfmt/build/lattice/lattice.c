@@ -162,7 +162,7 @@ static double cube_root(double x) {
   return root;
 }
 
-/* Whether a body without tetrahedra at this cell can hardly have that many at any: a thin layer or rod, which
+/* Whether a body without tetrahedra at this cell probably has too few at any cell: a thin layer or rod, which
  * would need a grid with many times as many nodes. */
 static bool is_hollow(const sbfi_soup *soup, double cell, uint32_t elements) {
   sbfi_lattice_grid grid;

@@ -190,7 +190,7 @@ static double target_compliance(const work *w, uint32_t load) {
 
 /* Lower bound of the common factor. Otherwise the slowest mode of a thin fin could select a factor with which
  * the thicker rest sags. If few points provide no information about parts, a body without pins stays stiff
- * enough to bear its weight. */
+ * enough to carry its weight. */
 static double min_to_bear(const work *w) {
   sbf_attributes matter = w->body->attributes;
   double stated = (double)matter.young_modulus;
@@ -200,15 +200,15 @@ static double min_to_bear(const work *w) {
 }
 
 /* Relative excess of a point's displacement over the reference's, projected on the reference's and summed
- * over all loads; negative: the reference's point hardly moves. */
-static double excess_of(const work *w, uint32_t point, double hardly) {
+ * over all loads; negative: the reference's point is almost still. */
+static double excess_of(const work *w, uint32_t point, double still_square) {
   double along = 0, square = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++)
     for (size_t k = 3 * (size_t)point; k < 3 * (size_t)point + 3; k++) {
       along += w->displacements[l][k] * w->r->displacements[l][k];
       square += w->r->displacements[l][k] * w->r->displacements[l][k];
     }
-  return square > hardly ? fmax(along, 0) / square : -1;
+  return square > still_square ? fmax(along, 0) / square : -1;
 }
 
 /* Mean over the surface, summed over the loads, of the reference's squared displacements, m^2. */
@@ -227,11 +227,11 @@ static double mean_square(const work *w) {
  * to loose fragments. 1 if the surface provides no information. Bisects the factor's logarithm. */
 static double median_excess(const work *w) {
   uint32_t points = w->body->surface.positions.count;
-  double low = min_median, high = max_median, hardly = still_fraction * mean_square(w);
+  double low = min_median, high = max_median, still_square = still_fraction * mean_square(w);
   for (int step = 0; step < MEDIAN_STEPS; step++) {
     double middle = sqrt(low * high), below = 0, above = 0;
     for (uint32_t i = 0; i < points; i++) {
-      double excess = excess_of(w, i, hardly);
+      double excess = excess_of(w, i, still_square);
       if (excess >= 0) *(excess < middle ? &below : &above) += (double)w->r->statics.areas[i];
     }
     if (!(below + above > 0)) return 1;

@@ -194,7 +194,7 @@ void sbfi_level_push(
   if (!s->is_pinned) balance(n, forces);
 }
 
-/* ---- Answers ---- */
+/* ---- Results ---- */
 
 /* Rayleigh's quotient of displacements u under a load: u.f / u.M u. */
 static double quotient(const sbf_spring_network *n, const double *forces, const double *moved) {

@@ -10,8 +10,8 @@ static const double adjoint_fraction = 10; /* relative to the accuracy of displa
 /* Step sizes of the logarithm of a factor: initial, minimum, maximum; their growth and reduction. */
 static const double first_step = 0.2, min_step = 1e-3, max_step = 1.5, longer = 1.2, shorter = 0.5;
 static const double smoothing = 0.1; /* blend per round */
-/* Limit of matrix blocks processed before a new round, so that no body takes many seconds, however badly
- * conditioned its equations are. */
+/* Limit of matrix blocks processed before a new round, so that no body takes many seconds, even with badly
+ * conditioned equations. */
 static const double max_visits = 3e8;
 enum { FEWEST_ROUNDS = 8, POINTS_FOR_ALL = 1000, MAX_TARGETS = SBFI_MAX_LOADS + SBFI_PUSHES };
 

@@ -180,7 +180,7 @@ static bool correct_point(const clusters *c, const sbfi_blend_surface *coarse, c
 static bool relax_coarse(sbfi_blend_surface *surface, const clusters *c, row_sum *sum, sbfi_arena *arena) {
   sbfi_blend_surface coarse;
   uint32_t left;
-  /* Rows are changed in place: recomputes the old ones. */
+  /* Rows are overwritten: recomputes the old ones. */
   const sbfi_blend_row *old = mean_rows(c, surface->rows, sum, arena);
   if (!old || !make_coarse(&coarse, c, sum, arena) || !sbfi_blend_levels_relax(&coarse, &left, arena))
     return false;

@@ -243,7 +243,7 @@ static double value_in(const sbfi_blend_row *r, uint32_t *next, uint32_t bone) {
   return *next < r->count && r->at[*next].bone == bone ? r->at[*next].value : 0;
 }
 
-/* Adds negligible weights to the greatest, so that rows stay short however far weights spread. */
+/* Adds negligible weights to the greatest, so that rows stay short when weights spread far. */
 static void drop_negligible(sbfi_blend_row *r) {
   uint32_t kept = 0, greatest = 0;
   double dropped = 0;

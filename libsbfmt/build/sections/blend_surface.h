@@ -41,8 +41,8 @@ typedef struct sbfi_blend_surface {
   uint64_t checks;  /* number of triangles that were bent so far: the cost */
 } sbfi_blend_surface;
 
-/* Smaller weights are added to the greatest of their point, so that rows stay short however far weights
- * spread. */
+/* Smaller weights are added to the greatest of their point, so that rows stay short when weights spread
+ * far. */
 static const double SBFI_BLEND_NEGLIGIBLE = 1e-7;
 
 /* (bones) NULL if memory runs out. */

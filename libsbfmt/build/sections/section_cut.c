@@ -168,7 +168,7 @@ static void find_selected(sbfi_section_cutter *c, uint32_t bone) {
   qsort(c->selected, kept, sizeof *c->selected, by_number);
 }
 
-/* Clears the previous cut: its point map was kept until now. */
+/* Clears the previous cut: its point map was needed until now. */
 static void forget_points(sbfi_section_cutter *c) {
   for (uint32_t i = 0; i < c->selected_count; i++)
     for (uint32_t k = c->t->corner_begins[c->selected[i]]; k < c->t->corner_begins[c->selected[i] + 1]; k++)

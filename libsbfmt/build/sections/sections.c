@@ -146,7 +146,7 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
     body->attributes = recipe->attributes;
     body->collision = recipe->collision;
   } else {
-    /* Without a stated material: as stiff as needed to bear its weight. */
+    /* Without a stated material: as stiff as needed to carry its weight. */
     body->attributes.young_modulus = (float)sbfi_bearing_modulus(&body->attributes, &body->surface.positions);
     body->attributes.sag_free = true;
     float modulus = body->attributes.young_modulus;
@@ -201,7 +201,7 @@ static void report_guesses(const work *w) {
   if (w->guessed_count == 0) return;
   if (w->max_guess > w->min_guess) snprintf(range, sizeof range, "%.6g to ", 1e-3 * (double)w->min_guess);
   sbfi_diagnose(&diagnostic, SBF_CODE_MATERIAL_GUESSED,
-      "%u section%s cut from skins had no material: %s%.6g kPa is used, which bears the weight; choose a "
+      "%u section%s cut from skins had no material: %s%.6g kPa is used, which carries the weight; choose a "
       "material, for example --material flesh",
       (unsigned)w->guessed_count, w->guessed_count == 1 ? "" : "s", range, 1e-3 * (double)w->max_guess);
   sbfi_report(w->reporter, &diagnostic);

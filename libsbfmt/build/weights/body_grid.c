@@ -108,8 +108,8 @@ static void mark_solid(const sbfi_body_grid *g, const sbfi_winding *winding, uin
   }
 }
 
-/* Boxes that are unreachable from the border without crossing the surface are inside, whatever its
- * orientation. */
+/* Boxes that are unreachable from the border without crossing the surface are inside, for any orientation of
+ * its triangles. */
 static bool mark_enclosed(const sbfi_body_grid *g, uint8_t *marks, sbfi_arena *arena) {
   uint32_t *queue = sbfi_arena_allocate(arena, g->box_count, sizeof *queue), count = 0;
   if (!queue) return false;

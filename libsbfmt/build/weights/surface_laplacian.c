@@ -145,7 +145,7 @@ static bool collect(
   return true;
 }
 
-/* Turns the counts into ranges, and makes room for the entries. */
+/* Turns the counts into ranges, and allocates the entries. */
 static bool begin_rows(rows *r, uint32_t row_count, const sbf_allocator *allocator) {
   for (uint32_t row = 0; row < row_count; row++) {
     if (r->begins[row + 1] > UINT32_MAX - r->begins[row]) return false;

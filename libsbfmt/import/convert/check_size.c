@@ -101,7 +101,7 @@ static void check_distances(sbfi_conversion *c) {
     check_distance(c, a->soft_bodies.at[i].name, &a->soft_bodies.at[i].surface.positions);
 }
 
-/* A floor beside a character says nothing about its unit. True if there is one. */
+/* The size of a floor beside a character gives no hint about its unit. True if there is one. */
 static bool check_surroundings(sbfi_conversion *c, double size) {
   const sbf_asset *a = c->asset;
   double bones = extent_of_bones(&a->bones);

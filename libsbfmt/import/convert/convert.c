@@ -117,7 +117,8 @@ static void report_joined_points(sbfi_conversion *c) {
   }
   if (points < vertices)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_POINTS_JOINED,
-        "%llu vertices of the file became %llu points: vertices of an object at one position that move alike "
+        "%llu vertices of the file became %llu points: vertices of an object at one position that move "
+        "together "
         "were merged",
         (unsigned long long)vertices, (unsigned long long)points);
 }
@@ -303,8 +304,8 @@ sbf_status sbf_convert(
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "the minimum and maximum of goals must be from 0 to 1, and their stiffness at least 0");
 
-  bool is_paper = sbfi_paper_knows(input);
-  if (is_paper || sbfi_tet_mesh_knows(input))
+  bool is_paper = sbfi_paper_supports(input);
+  if (is_paper || sbfi_tet_mesh_supports(input))
     return convert_other_file(input, is_paper, options, asset, error);
   sbfi_scene_options reading = {.allocator = options->allocator, .helper_path = options->import_helper};
   sbfi_scene scene, rig_scene;

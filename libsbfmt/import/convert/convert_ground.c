@@ -1,4 +1,4 @@
-/* Moves a character to the origin and onto y = 0 in asset space, wherever its file has it. */
+/* Moves a character to the origin and onto y = 0 in asset space. */
 #include <math.h>
 
 #include "import/convert/conversion.h"

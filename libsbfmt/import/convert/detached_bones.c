@@ -86,11 +86,10 @@ static bool points_along(sbfi_d3 axis, sbfi_d3 direction) {
   return sbfi_d3_dot(direction, sbfi_d3_normal(axis)) > SBFI_STRAIGHT;
 }
 
-/* Distance from the head of a limb's last bone to a loose bone that may continue it; INFINITY if it
- * cannot. The limb must point at the loose bone by its end or its +Y, or, if not all bones run along +Y,
- * continue downwards to it; on a root, which may be a frame, by its end alone. Importers turn the axes of
- * some bones, so a limb that points at one takes that.
- */
+/* Distance from the head of a limb's last bone to a loose bone that may continue it; INFINITY if it cannot.
+ * The limb must point at the loose bone by its end or its +Y, or, if not all bones run along +Y, continue
+ * downwards to it; on a root, which may be a frame, by its end alone. Importers rotate the axes of some
+ * bones, so a loose bone that one axis points at is preferred. */
 static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t loose) {
   const sbfi_bone_draft *last = &s->bones[tip];
   int32_t old_parent = s->bones[loose].parent, limb = s->bones[last->parent].parent;

@@ -6,8 +6,8 @@
 #include "sbfmt/materials.h"
 #include "sbfmt/mechanics.h"
 
-/* Maximum strain of soft tissue under its own weight. Tissue is attached along the whole bone, so it bears
- * only the mass between bone and skin; at this strain the shape still looks as authored. */
+/* Maximum strain of soft tissue under its own weight. Tissue is attached along the whole bone, so it carries
+ * only the mass between bone and skin. At this strain the shape still looks as authored. */
 static const double MAX_TISSUE_STRAIN = 0.25;
 
 /* Guessed moduli, for the report. */

@@ -4,8 +4,8 @@
 
 #include "import/convert/conversion.h"
 
-/* Sets the modulus of sections on bones to that of soft tissue, or higher if their thickness needs it, and
- * of free bodies to one that can bear their weight on the ground. Reports the guesses. */
+/* Sets the modulus of sections on bones to that of soft tissue, or higher if their thickness needs it, and of
+ * free bodies to one that can carry their weight on the ground. Reports the guesses. */
 void sbfi_guess_moduli(sbfi_conversion *c);
 
 #endif

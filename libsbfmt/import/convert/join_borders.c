@@ -63,7 +63,7 @@ static uint32_t list_edges(const sbfi_scene_mesh *mesh, edge *edges) {
   return count;
 }
 
-/* Joins the ends of two border edges at one position. Where more meet, it is not known which belong
+/* Joins the ends of two border edges at one position. If more edges end there, it is not known which belong
  * together. */
 static void join_ends(const edge *edges, uint32_t count, uint32_t *sets) {
   for (uint32_t first = 0, end; first < count; first = end) {

@@ -293,7 +293,7 @@ static void select_largest(const work *w) {
       w->parts[b].why = NOT_AMONG_LARGEST;
 }
 
-/* ---- What the caller asks for ---- */
+/* ---- Options of the caller ---- */
 
 static sbf_status apply_requests(work *w, const char *const *names, uint32_t count, reason why) {
   for (uint32_t i = 0; i < count; i++) {
@@ -431,9 +431,9 @@ static double area_of_objects(const work *w) {
   return sum;
 }
 
-/* If objects make up much of the visible area, they are the sections of the character, unless its name
- * says that it is a machine. Otherwise objects on bones of a skinned character are props: they are drawn
- * but not simulated. */
+/* If objects make up much of the visible area, they are the sections of the character, unless its name is
+ * that of a machine. Otherwise objects on bones of a skinned character are props: they are drawn but not
+ * simulated. */
 static bool make_props_rigid(const work *w) {
   /* the conversion owns the asset */
   sbf_soft_body *bodies = (sbf_soft_body *)(uintptr_t)w->asset->soft_bodies.at;

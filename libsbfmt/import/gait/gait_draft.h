@@ -5,16 +5,16 @@
 #include "base/memory.h"
 #include "sbfmt/asset.h"
 
-/* A bone "bears" if it or a descendant has points of a mesh. Other bones are ignored: tips, sockets,
- * controls. In a rig without meshes all bones bear except those named as tips. */
+/* A bone "carries" points if it or a descendant has points of a mesh. Other bones are ignored: tips, sockets,
+ * controls. In a rig without meshes all bones count as carrying points, except those named as tips. */
 typedef struct sbfi_bone_shape {
   uint32_t points;          /* points of meshes for which the bone has the greatest weight */
   bool moves_points;        /* the bone or a descendant has points */
-  uint32_t children;        /* children that bear */
-  uint32_t middle_children; /* bearing children on neither side */
+  uint32_t children;        /* children that carry points */
+  uint32_t middle_children; /* such children on neither side */
   double low; /* y of its lowest point, or of its head in a rig without meshes; INFINITY without points */
   double low_below;    /* the same including all descendants */
-  double min_x, max_x; /* range of the heads and centres of points of the bone and all bearing descendants */
+  double min_x, max_x; /* range of the heads and centres of points of the bone and such descendants */
   double sum_z;        /* sum over the points of the bone */
   int side;            /* 1: the whole subtree is on the left (+X), -1: on the right, 0: neither */
 } sbfi_bone_shape;
@@ -96,7 +96,7 @@ double sbfi_draft_distance(const sbfi_gait_draft *d, int32_t a, int32_t b); /* b
 /* Whether `bone` is `ancestor` or a descendant of it. */
 bool sbfi_draft_is_below(const sbfi_gait_draft *d, int32_t bone, int32_t ancestor);
 
-/* The only bearing child of a bone; SBF_NONE if there is not exactly one. */
+/* The only child of a bone that carries points; SBF_NONE if there is not exactly one. */
 int32_t sbfi_draft_only_child(const sbfi_gait_draft *d, int32_t bone);
 
 #endif

@@ -70,7 +70,7 @@ typedef struct sbfi_paper_model {
 } sbfi_paper_model;
 
 /* Whether the file has this dialect: its name ends in .xml and its root is <model>. */
-bool sbfi_paper_knows(const char *path);
+bool sbfi_paper_supports(const char *path);
 
 /* Reads the file; on failure the model is empty. */
 sbf_status sbfi_paper_read(

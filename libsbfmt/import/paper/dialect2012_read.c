@@ -431,7 +431,7 @@ static bool peek_end(void *user) {
   return true;
 }
 
-bool sbfi_paper_knows(const char *path) {
+bool sbfi_paper_supports(const char *path) {
   size_t length = strlen(path);
   bool is_model = false, *seen = &is_model;
   if (length < 5 || strcmp(path + length - 4, ".xml") != 0) return false;

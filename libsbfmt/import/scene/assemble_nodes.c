@@ -243,11 +243,11 @@ static bool mark_bones(sbfi_assembly *a) {
 }
 
 /* assimp identifies the joints of a skin by name. Several equal ones are two armatures of one origin: a
- * single warning says what becomes of their skins. */
+ * single warning reports it and the effect on their skins. */
 static bool report_equal_armatures(sbfi_assembly *a) {
   uint32_t count = 0;
   const char *example = NULL;
-  for (int pass = 0; pass < 2 && count != 1; pass++) /* counts them, then takes away their own warnings */
+  for (int pass = 0; pass < 2 && count != 1; pass++) /* counts them, then removes their own warnings */
     for (uint32_t m = 0; m < a->raw->mesh_count; m++)
       for (uint32_t b = 0; b < a->raw->meshes[m].bone_count; b++) {
         int64_t name = sbfi_name_table_find(&a->names, a->raw->meshes[m].bones[b].name);

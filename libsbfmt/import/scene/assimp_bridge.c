@@ -119,7 +119,7 @@ static sbf_status check_end(const sbfi_process_result *result, sbf_diagnostic *e
   case SBFI_PROCESS_CPU_LIMIT:
     return limit_reached(error, "time");
   case SBFI_PROCESS_OUTPUT_TOO_LARGE:
-    return limit_reached(error, "room");
+    return limit_reached(error, "memory");
   case SBFI_PROCESS_KILLED:
     break;
   }
@@ -140,7 +140,7 @@ static sbf_status check_input(const char *path, const char **format, const sbfi_
   uint64_t size = *size_bytes = file.size;
   bool is_glb = size >= sizeof magic && sbfi_file_read_at(&file, 0, magic, sizeof magic, NULL) == SBF_OK &&
                 memcmp(magic, "glTF", sizeof magic) == 0;
-  if (is_glb) *format = "glb"; /* whatever its name */
+  if (is_glb) *format = "glb"; /* for any name */
   if (size && strcmp(*format, "ply") == 0) status = sbfi_ply_header_check(&file, options->allocator, error);
   sbfi_file_close(&file);
   if (status) return status;

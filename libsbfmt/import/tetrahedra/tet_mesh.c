@@ -12,7 +12,7 @@ static bool ends_with(const char *text, const char *ending) {
   return length > tail && strcmp(text + length - tail, ending) == 0;
 }
 
-bool sbfi_tet_mesh_knows(const char *path) {
+bool sbfi_tet_mesh_supports(const char *path) {
   static const char *const endings[] = {".node", ".ele", ".msh", ".vtk", ".vtu", ".tet"};
   for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
     if (ends_with(path, endings[i])) return true;

@@ -17,7 +17,7 @@ typedef struct sbfi_tet_mesh {
 } sbfi_tet_mesh;
 
 /* Whether a path has a supported extension: .node .ele .msh .vtk .vtu .tet */
-bool sbfi_tet_mesh_knows(const char *path);
+bool sbfi_tet_mesh_supports(const char *path);
 
 /* Reads the file. Either file of TetGen's pair may be given, but both must exist. On failure the mesh is
  * empty. */

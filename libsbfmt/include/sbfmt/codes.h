@@ -148,7 +148,7 @@ typedef enum sbf_code {
   SBF_CODE_UNIT_LOOKS_WRONG = 604, /* The asset's size suggests a wrong unit: convert the source with --unit. */
   SBF_CODE_DERIVED_STALE = 605, /* Derived parts were made from another source: run sbfmt build again, or --fix. */
   SBF_CODE_DENSITY_LOOKS_WRONG = 606, /* A density is implausible: state it in kg/m^3; water has 1000. */
-  SBF_CODE_BODY_COLLAPSES = 607, /* A body cannot bear its own weight: raise young_modulus, which is in Pa, or lower the density. */
+  SBF_CODE_BODY_COLLAPSES = 607, /* A body cannot carry its own weight: raise young_modulus, which is in Pa, or lower the density. */
   SBF_CODE_POINT_NO_MASS = 608, /* A free point has no mass: add mass or pin it. */
   SBF_CODE_STRAIN_ORDER = 609, /* A strain limit prevents yield or tear: order them as yield, tear, strain_max. */
   SBF_CODE_GRAVITY_LOOKS_WRONG = 610, /* Gravity is implausible: state it in m/s^2, with +Y up. */
@@ -237,7 +237,7 @@ typedef enum sbf_code {
   SBF_CODE_RIG_OBJECT_APART = 786, /* No bone is inside or near an object with computed weights: if it is another character, convert it with its own rig. */
   SBF_CODE_SOFTNESS_PROPOSED = 787, /* Soft and rigid parts of the character were chosen: change them with --soft and --rigid. */
   SBF_CODE_RIG_OTHER_MESH = 788, /* The rig's own mesh differs from the input, or bones are outside it: use the rig of this character in the same pose, or --weights compute or transfer if it is right. */
-  SBF_CODE_GAIT_NOTHING_MOVES = 790, /* A gait has nothing that moves for its kind: add it, or choose kind none. */
+  SBF_CODE_GAIT_NOTHING_MOVES = 790, /* A gait has no part that its kind moves: add one, or choose kind none. */
   SBF_CODE_GAIT_CHAIN_SHORT = 791, /* A wave or a tread needs at least two bones, a fin at least one: name them. */
   SBF_CODE_GAIT_AXIS_ZERO = 792, /* An axis has no length: state a direction. */
   SBF_CODE_GAIT_POSE_WALKS = 793, /* A rest pose has a walking distance: remove the distance, or choose another pose. */
@@ -281,7 +281,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_IMAGE = 938, /* An image cannot be imported: save it as PNG or JPEG. */
   SBF_CODE_IMPORT_UNIT = 939, /* The file states no usable unit, so metres are assumed: state --unit if that is wrong. */
   SBF_CODE_IMPORT_POSE = 940, /* The file was saved in mid-motion: the bind pose is used. */
-  SBF_CODE_IMPORT_POINTS_JOINED = 941, /* Vertices that were split for rendering are joined: they have one position and move alike. */
+  SBF_CODE_IMPORT_POINTS_JOINED = 941, /* Vertices that were split for rendering are joined: they have one position and move together. */
   SBF_CODE_IMPORT_MOTION = 942, /* A clip of a motion file was transferred: the message lists its bones and distance. */
   SBF_CODE_IMPORT_MOTION_UNMATCHED = 943, /* Bones have no counterpart in the other skeleton, so their motion is lost or they follow their parents: use equal bone names, or add retarget chains. */
   SBF_CODE_IMPORT_MOTION_NONE = 944, /* A motion file has no clip, or none of its bones matches the skeleton: use equal bone names, or add retarget chains. */
@@ -292,7 +292,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_INSIDE_OUT = 954, /* All polygons of a closed surface faced inwards and were reversed: correct their orientation in the source. */
   SBF_CODE_IMPORT_GROUND = 955, /* The character was not on y = 0, or not at the origin, and was moved there: no action is needed. */
   SBF_CODE_IMPORT_PIN_UNKNOWN = 956, /* A pin or an attachment names a group, an object or a bone that the input does not have: sbfmt info lists them. */
-  SBF_CODE_MATERIAL_GUESSED = 957, /* Bodies without a material use soft tissue for sections, else the default or a modulus that bears their weight: choose one with --material. */
+  SBF_CODE_MATERIAL_GUESSED = 957, /* Bodies without a material use soft tissue for sections, else the default or a modulus that carries their weight: choose one with --material. */
   SBF_CODE_IMPORT_FACING = 958, /* The character did not face +Z and was rotated: state --forward if that is wrong. */
   SBF_CODE_IMPORT_FAR = 959, /* An object is so far from the origin that single precision rounds its shape: move it to the origin in its program. */
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra were inverted and their points were reordered: no action is needed. */

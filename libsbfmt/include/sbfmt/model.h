@@ -49,7 +49,7 @@ typedef struct sbf_asset {
   sbf_cross_springs_list cross_springs;     /* Springs between two bodies. */
   sbf_ik_chain_list ik_chains;              /* Chains of bones that reach for a target. */
   sbf_gait_list gaits;                      /* How the character moves. */
-  sbf_chain_list chains;                    /* Chains of bones that follow their first. */
+  sbf_chain_list chains;                    /* Chains of bones that follow their first bone. */
   sbf_follower_list followers;              /* Bones that follow their own pose as second-order systems. */
   sbf_clip_list clips;                      /* Keyed animation. */
   sbf_pose_list poses;                      /* Pose keys. */

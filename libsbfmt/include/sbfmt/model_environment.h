@@ -29,7 +29,7 @@ typedef struct sbf_force_field {
   sbf_vec3 position;    /* Centre. [m] */
   sbf_vec3 direction;   /* Axis of uniform and vortex, of any length. */
   float strength;       /* At the centre; radial: away from it; drag: against a speed of 1 m/s. [m/s^2] */
-  float radius;         /* No force beyond; 0: everywhere. [m; [0, inf)] */
+  float radius;         /* Distance beyond which there is no force; 0: unlimited. [m; [0, inf)] */
   float falloff;        /* Power p with which strength falls: it is divided by (1 + d)^p, d metres from the centre.
                          * [[0, inf)] */
 } sbf_force_field;

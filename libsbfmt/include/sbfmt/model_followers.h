@@ -72,7 +72,7 @@ typedef struct sbf_chain {
   float angle_limit;               /* Maximum angle between two bones. [rad; [0, 3.15]; default 1] */
   float damping;                   /* Rate at which it straightens at rest. [1/s; [0, inf)] */
   bool proposed;                   /* Guessed from the rig, for a person to confirm. [default false] */
-  const sbf_chain_spring *spring;  /* Its bones swing as pendulums, whatever its kind. */
+  const sbf_chain_spring *spring;  /* Its bones swing as pendulums, for any kind of chain. */
 } sbf_chain;
 typedef struct sbf_chain_list { const sbf_chain *at; uint32_t count; } sbf_chain_list;
 

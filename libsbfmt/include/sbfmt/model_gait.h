@@ -73,7 +73,7 @@ typedef struct sbf_tail_list { const sbf_tail *at; uint32_t count; } sbf_tail_li
 
 /* A wave that travels from the nose to the tail along a chain of bones. */
 typedef struct sbf_undulation {
-  sbf_u32_list bones;       /* Bones, nose to tail, whatever their parents. [index into asset.bones] */
+  sbf_u32_list bones;       /* Bones, nose to tail; parents do not matter. [index into asset.bones] */
   sbf_wave_plane plane;     /* lateral: to the sides, as fish; vertical: up and down, as whales. [default lateral] */
   float length;             /* Length L from nose to tail; 0: of the bones. [m; [0, inf)] */
   float wavelength;         /* Wavelength relative to L. [(0, inf); default 0.95] */
@@ -135,7 +135,7 @@ typedef struct sbf_medium {
   float bank;           /* Factor of the bank tan(angle) = speed x turn rate / g. [[0, 4]; default 1] */
   float bank_limit;     /* Maximum bank. [rad; [0, 1.5]; default 0.8] */
   float pitch_limit;    /* Maximum pitch along its path. [rad; [0, 1.5]; default 0.8] */
-  float tilt;           /* Forward tilt at walk_speed, in addition, as of hovering insects. [rad; [-1.5, 1.5]] */
+  float tilt;           /* Additional forward tilt at walk_speed, as of hovering insects. [rad; [-1.5, 1.5]] */
   float bob;            /* Amplitude of the rise and fall at rest. [m; [0, inf)] */
   float bob_frequency;  /* Frequency of the rise and fall. [Hz; [0, 8]; default 0.8] */
   float glide_ratio;    /* Distance forward per height lost with still wings; 0: it never glides. [[0, inf)] */

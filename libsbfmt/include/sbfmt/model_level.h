@@ -108,7 +108,7 @@ typedef struct sbf_level_list { const sbf_level *at; uint32_t count; } sbf_level
 /* The relaxation scheme of the reference lizard: per tick, dimensionless. */
 typedef struct sbf_relaxation {
   float stiffness;  /* Fraction of a spring's error corrected in a visit. [[0, 1]; default 0.3] */
-  float damping;    /* Fraction of motion kept in a tick. [[0, 1]; default 0.9] */
+  float damping;    /* Fraction of motion left after a tick. [[0, 1]; default 0.9] */
   float gravity;    /* Displacement added in a tick. [m; default 0.001] */
 } sbf_relaxation;
 typedef struct sbf_relaxation_list { const sbf_relaxation *at; uint32_t count; } sbf_relaxation_list;

@@ -55,13 +55,13 @@ typedef struct sbf_attributes {
   float media_friction;             /* Decay rate of speed relative to the medium. [1/s; [0, inf)] */
   float pressure;                   /* Gas pressure at rest, relative to the outside. [Pa] */
   sbf_pressure_mode pressure_mode;  /* none: no pressure; gas: pressure times volume is constant; volume: the volume is
-                                     * kept. [default none] */
+                                     * constant. [default none] */
   float strain_min;                 /* Minimum strain; -1: none. [[-1, 0]; default -1] */
   float strain_max;                 /* Maximum strain; 0: none. [[0, inf)] */
   float yield_strain;               /* Strain at which the rest shape flows; 0: never. [[0, inf)] */
   float yield_flow;                 /* Rate of the flow. [1/s; [0, inf)] */
   float tear_strain;                /* Strain at which the element stops acting; 0: never. [[0, inf)] */
-  bool sag_free;                    /* Springs without stated rest lengths bear the weight in the authored shape.
+  bool sag_free;                    /* Springs without stated rest lengths carry the weight in the authored shape.
                                      * [default false] */
 } sbf_attributes;
 typedef struct sbf_attributes_list { const sbf_attributes *at; uint32_t count; } sbf_attributes_list;

@@ -109,8 +109,8 @@ static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
   return run > 1e-6f ? sbri_atan2(b.y - a.y, run) : 0;
 }
 
-/* Slope angle from the right feet to the left. One of two feet is ahead of the other: what the ground rises
- * between them is no roll, and the body stays upright above a narrow stance. */
+/* Slope angle from the right feet to the left. If one of two feet is ahead of the other, the ground's rise
+ * between them is pitch, not roll, and the body stays upright above a narrow stance. */
 static float feet_roll(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float width = 2 * rig->stand.half_width * input->scale, min = NARROWEST * rig->stand.reach * input->scale;
   sbf_vec3 left = {0, 0, 0}, right = {0, 0, 0};
@@ -217,8 +217,8 @@ static float limit_for_knees(const sbri_rig *rig, const sbri_gait_state *state, 
   return lowering < min ? min : lowering;
 }
 
-/* Lowering for the positions at which feet land and lift off in a stride. Wide strides keep the body low, so
- * that it need not bob. */
+/* Lowering for the positions at which feet land and lift off in a stride. With wide strides the body stays
+ * low, so that it does not bob. */
 static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, const sbr_transform *root, const sbri_stride *stride) {
   float max = 0;
@@ -267,8 +267,8 @@ static sbri_stance stance_without_lowering(
   sbri_sincos(-0.5f * pitch, &sp, &cp);
   sbri_sincos(0.5f * roll, &sr, &cr);
   sbf_quat tilt = sbri_quat_multiply((sbf_quat){sp, 0, 0, cp}, (sbf_quat){0, 0, sr, cr});
-  /* Two legs, and others while they must keep their balance, tilt about the middle of the hips, so that the
-   * mass stays above the feet; otherwise about the ground between the feet. */
+  /* A body on two legs, or one that has to balance, tilts about the middle of the hips, so that the mass
+   * stays above the feet. Others tilt about the ground between the feet. */
   float about_hips = rig->leg_count == 2 ? 1 : state->balance.upright.value;
   sbf_vec3 middle =
       sbri_vec3(0, about_hips * rig->stand.hips_y, 0.5f * (rig->stand.hind_z + rig->stand.fore_z));

@@ -18,7 +18,7 @@ static const float MIN_SIDEWAYS = 0.4f; /* sideways displacement and twist below
 static const float MAX_HOME_DISTANCE = 0.7f; /* fraction of its circle that a foot may be from home */
 static const float TURN_ADVANTAGE =
     0.15f;                            /* half strides: a foot must be worse by this to take another's turn */
-static const float JOIN_PHASE = 0.4f; /* phase of a step until which others of its group may join it */
+static const float JOIN_PHASE = 0.4f; /* phase of a step before which other feet of its group may start */
 static const float MAX_WAIT_S =
     0.7f; /* longest wait for balance, s; then a foot steps anyway, sooner if the body waits too */
 

@@ -53,7 +53,7 @@ float sbri_gait_max_speed_change(
 /* A tick of an offscreen character: moves the body by the command, at the last speed that the feet allowed,
  * without steps. */
 void sbri_gait_travel(const sbri_rig *rig, void *state, const sbri_gait_input *input);
-/* Ends offscreen travel: puts the feet down at its position, and keeps speed, targets and distance. */
+/* Ends offscreen travel: places the feet on the ground at its position. Speed, targets and distance stay. */
 void sbri_gait_arrive(const sbri_rig *rig, void *state, const sbri_gait_input *input);
 
 /* Computes the pose of the present state without advancing it. If the character was `placed`, resets lagging

@@ -36,7 +36,7 @@ typedef struct sbri_foot_glides {
 /* Knee angle of the last pose, rad; straight: pi. */
 typedef struct sbri_knee_state {
   float angle, rate;    /* rad, rad/s */
-  float wanted;         /* angle that the foot's path asked for */
+  float wanted;         /* angle that the foot's path requires */
   float locked;         /* angle at which it is locked; 0: not locked */
   uint32_t known_ticks; /* number of ticks with a known angle, at most 2 */
 } sbri_knee_state;
@@ -136,7 +136,7 @@ typedef struct sbri_gait_state {
   sbri_gait_posture posture;
   sbri_gait_fall fall;
   uint32_t displaced;    /* 1: moved by its host in this tick; stops when the host stops */
-  uint32_t spares_knees; /* 1: lowered less than the feet ask for, to spare the knees */
+  uint32_t spares_knees; /* 1: lowered less than the feet need, to limit the knees' acceleration */
   double distance_m;
   sbri_gait_walk walk;
   sbri_lag head_yaw;
@@ -357,7 +357,7 @@ sbf_vec3 sbri_standing_offset(const sbri_rig *rig);
 
 /* ---- animation/gait/step_plan.c: height and timing of a step ---- */
 
-/* Plans the height and timing of a step. Motion that has begun is kept. */
+/* Plans the height and timing of a step. Motion that has begun does not change. */
 void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 /* Estimate of the duration that the knee needs for the planned step, at least `wanted_s`. */
 float sbri_step_duration(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
@@ -373,7 +373,7 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 
 /* ---- animation/gait/feet.c: selection of the feet that step ---- */
 
-/* Puts a leg's foot down at its home. */
+/* Places a leg's foot on the ground at its home. */
 void sbri_foot_put_down(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 
@@ -383,7 +383,7 @@ typedef struct sbri_stance {
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
   float hips_pitch;          /* rad about the left axis; above 0: nose down */
   float lowered;             /* lowering, m */
-  bool spares_knees;         /* lowered less, to spare the knees */
+  bool spares_knees;         /* lowered less, to limit the knees' acceleration */
 } sbri_stance;
 
 /* Selects the feet that step, moves swinging feet and the body above them. Returns the number of events
@@ -441,7 +441,7 @@ void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float sca
 /* Knee angle, rad, for a distance of hip and ankle; and the inverse. */
 float sbri_knee_angle(const sbri_leg *leg, float scale, float distance);
 float sbri_knee_distance(const sbri_leg *leg, float scale, float angle);
-/* Angle that a swinging knee reaches of the angle that the foot's path asks for. */
+/* Angle that a swinging knee reaches, from the angle that the foot's path requires. */
 float sbri_knee_follow(const sbri_foot *foot, float wanted, float tick_s);
 /* Range of the hip-ankle distance of a planted foot for which the knee's angular acceleration stays bounded
  * and the knee can stop where the leg is stretched to `full`, m. False if there is no bound. */

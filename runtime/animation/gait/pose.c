@@ -130,7 +130,7 @@ static void pose_one_bone_leg(
   sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), down);
   sbf_quat rotation = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
   sbri_rig_rotate_bone(rig, (uint32_t)leg->upper, rotation, pose);
-  /* The leg has one fixed length; the foot stays at its position and takes the difference. */
+  /* The leg has a fixed length. The foot stays at its position, so its distance from the leg's end varies. */
   pose_foot(rig, leg, foot, ankle, pose[leg->foot].rotation, pose);
 }
 

@@ -2,8 +2,8 @@
  *
  * The method is VRMC_springBone 1.0's, on the steps of 1/60 s for which its avatars are made: position Verlet
  * with the exact decay of the velocity, the length restored by projection, then collisions (VRM Consortium,
- * "SpringBone Algorithm"). Steps are at multiples of 1/60 s whatever the tick; between them the pose shows a
- * shorter step, which is not stored. So the motion does not depend on the tick. */
+ * "SpringBone Algorithm"). Steps are at multiples of 1/60 s for any tick length. Between them the pose shows
+ * a shorter step, which is not stored. So the motion does not depend on the tick. */
 #include "animation/gait/gait_state.h"
 #include "math/trig.h"
 
@@ -44,8 +44,7 @@ static sbr_transform blend(const sbr_transform *a, const sbr_transform *b, float
       sbri_lerp(a->position, b->position, t), sbri_quat_blend(a->rotation, b->rotation, t)};
 }
 
-/* Vector from a shape's nearest point of its axis to `end`; `*depth` is how deep `end` is in what it may not
- * enter. */
+/* Vector from the nearest point of a shape's axis to `end`. `*depth` receives the penetration of `end`. */
 static sbf_vec3 press(const sbri_chain_shape *shape, const sbr_transform *bone, float scale, sbf_vec3 end,
     float radius, float *depth) {
   const sbf_chain_collider *source = shape->source;

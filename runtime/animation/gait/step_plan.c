@@ -39,7 +39,7 @@ static float slope_along(sbf_vec3 normal, sbf_vec3 direction) {
 }
 
 /* Height profile of the ground below a step, sampled in advance: minimum height of the sole's middle above
- * the line between both ends at which no part of the foot penetrates, whatever its rotation. */
+ * the line between both ends at which no part of the foot penetrates in any rotation. */
 typedef struct profile {
   float min_heights[PROFILE_SAMPLES + 1];
   float highest; /* above the higher end */

@@ -7,9 +7,10 @@
 #include "animation/gait/gait_state.h"
 #include "shapes/ground.h"
 
-static const float RANGE_USED = 0.75f;    /* fraction of a foot's range that a stride uses */
-static const float MAX_LOWERING = 0.8f;   /* fraction of the circle of an upright body; bounds its lowering */
-static const float LEANING_HEIGHT = 0.8f; /* fraction of the hips' height that a leaning body keeps */
+static const float RANGE_USED = 0.75f;  /* fraction of a foot's range that a stride uses */
+static const float MAX_LOWERING = 0.8f; /* fraction of the circle of an upright body; bounds its lowering */
+static const float LEANING_HEIGHT =
+    0.8f; /* minimum height of the hips of a leaning body, as a fraction of their own */
 static const float AVAILABLE_RANGE = 1.0f; /* fraction of the mean range that is always available */
 static const float STRIDE_S = 0.5f;        /* time over which the maximum stride is averaged */
 static const float MAX_REACH = 0.97f;      /* fraction of the full reach */
@@ -275,7 +276,7 @@ static bool ground_goes_on(const sbri_rig *rig, const sbri_gait_state *state, co
   return true;
 }
 
-/* Whether it stands on even ground that goes on: level or, with two legs, sloped. */
+/* Whether it stands on a large area of even ground: level or, with two legs, sloped. */
 static bool is_even(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   double unused;
   if (sbri_ground_is_flat(input->ground, &unused)) return true;

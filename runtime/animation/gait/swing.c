@@ -82,7 +82,7 @@ static bool plan_path(
 static void adapt_speed(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, float needed_s) {
   float easiest = stride->even ? 0 : EASIEST * stride->duration_s;
-  if (needed_s < easiest) needed_s = easiest; /* one easy step says little of the next */
+  if (needed_s < easiest) needed_s = easiest; /* one easy step does not predict the next */
   float fraction = needed_s > state->stepping.step_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
   state->stepping.step_s += fraction * (needed_s - state->stepping.step_s);
   float wanted = sbri_wanted_speed(rig, state, input, stride->homes),

@@ -1,5 +1,5 @@
 /* Weight: a bone follows its position in the world with a lag. The vertical lag lowers or raises it; the
- * horizontal lag makes it lean in that direction, whatever the body's heading. */
+ * horizontal lag makes it lean in that direction, for any heading of the body. */
 #include "animation/gait/gait_state.h"
 #include "math/quat.h"
 

@@ -210,9 +210,9 @@ static void restore_rotations(const sbf_quat *rotations, sbri_ik_chain *chain) {
   for (uint32_t i = 0; i < chain->count; i++) chain->joints[i].rotation = rotations[i];
 }
 
-/* Limits may stop the chain in a local minimum, above all with hinges: positions are of no use to joints that
- * rotate about one line only. With the remaining iterations joints are rotated for the end's sake, one by one
- * from their initial rotations; the better result is kept. */
+/* Limits may stop the chain in a local minimum, above all with hinges: positions do not help joints that
+ * rotate about one axis only. The remaining iterations rotate the joints to move the end, one by one from
+ * their initial rotations; the better result is kept. */
 static sbri_ik_result out_of_corner(sbri_ik_chain *chain, const sbf_quat *began_with, sbri_ik_result so_far) {
   sbf_quat kept[SBRI_IK_MAX_JOINTS];
   sbri_ik_chain rest = *chain;

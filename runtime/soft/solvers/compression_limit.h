@@ -22,7 +22,7 @@
 
 #define SBRI_MIN_VOLUME_RATIO 0.1f
 /* Maximum increase of J per substep, and maximum displacement of a corner as a fraction of its element's
- * size. Keeps heaps from bursting. */
+ * size. Prevents piles from exploding. */
 #define SBRI_COMPRESSION_STEP 0.1f
 /* Iterations per substep, because neighbouring elements interact. */
 enum { SBRI_COMPRESSION_SWEEPS = 8 };
@@ -91,7 +91,7 @@ static inline bool sbri_is_compressed(const sbri_island_tick *t) {
   return t->island->tetrahedra.dense_count > 0 && *t->solids.min_ratio < SBRI_COMPRESSION_NEAR;
 }
 
-/* Lets the limit be checked in all blocks, where nothing tells which are compressed. */
+/* Marks all blocks as compressed, if it is not known which are. */
 static inline void sbri_mark_all_compressed(const sbri_island_tick *t) {
   if (sbri_is_compressed(t)) memset(t->solids.compressed, 1, t->island->tetrahedra.dense_count);
 }

@@ -6,7 +6,7 @@
  * bits, of one task that computes all.
  *
  * Between two substeps the sums and entries are 0: sbri_divided_begin clears them at the beginning of the
- * tick, and whoever reads the sums of a range clears it.
+ * tick, and the reader of a range of sums clears it.
  *
  * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_DIVIDED_FORCES_H

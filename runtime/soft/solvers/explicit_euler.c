@@ -2,8 +2,8 @@
 #include "model/kernels.h"
 #include "soft/solvers/scheme.h"
 
-/* The number at which the springs' own damping keeps the scheme stable. Without damping, no number does; then
- * that of symplectic Euler. */
+/* Number of substeps for which the springs' own damping makes the scheme stable. Without damping no number
+ * does; then the number of symplectic Euler. */
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
   uint32_t stable = sbri_stable_substeps(island, tick_s, stretch);
   double w = island->stability.fastest_rad_s, z = 0.5 * island->springs.stiffness_damping_s * w;

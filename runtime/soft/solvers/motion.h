@@ -36,7 +36,7 @@
 #define SBRI_MIN_TOLERANCE_M_S 1e-3f
 
 typedef struct sbri_decay {
-  float frame;         /* fraction of the velocity relative to the frame that a substep keeps */
+  float frame;         /* fraction of the velocity relative to the frame that is left after a substep */
   float media;         /* fraction of the velocity relative to the medium */
   const float *alphas; /* damping per point, 1/s; NULL: uniform. `frame` is then the minimum */
   float h;
@@ -48,7 +48,7 @@ static inline sbri_decay sbri_decay_of(const sbri_body *body, float h) {
       body->damping.alphas, h};
 }
 
-/* Fraction of the velocity relative to the frame that each lane keeps. */
+/* Fraction of the velocity relative to the frame that is left in each lane. */
 static inline sbri_wide sbri_kept_fractions(sbri_decay decay, uint32_t slot) {
   float fractions[SBRI_LANES];
   if (!decay.alphas) return sbri_wide_all(decay.frame);
@@ -108,7 +108,7 @@ static inline sbri_slot_range sbri_slots_of(const sbri_body *body) {
   return (sbri_slot_range){body, body->slots.begin, body->slots.end};
 }
 
-/* Number of slots of a task: fewer cost less than starting it. */
+/* Minimum number of slots of a task. Fewer slots take less time than starting a task. */
 enum { SBRI_TASK_SLOTS = 2048 };
 
 /* Number of tasks among which loops over the body's slots are divided. */
@@ -175,8 +175,9 @@ static inline void sbri_drift_slots(const sbri_island_tick *t, sbri_slot_range r
   }
 }
 
-/* Maximum number of substeps that share one damping of a body without pins. Finding the rigid motion costs a
- * seventh of a substep of tetrahedra; sharing it changes the decay by a fraction of alpha h. */
+/* Number of substeps after which a body without pins is damped once, for all of them. Computing the rigid
+ * motion takes a seventh of the time of a substep of tetrahedra. The common damping changes the decay by a
+ * fraction of alpha h. */
 enum { SBRI_SELF_DAMP_EVERY = 4 };
 
 /* Whether loads or contacts act on the body, which need all its velocities at once. */
@@ -226,8 +227,8 @@ static inline void sbri_kick_by_tasks(
       if (work.stretches[i][lane] > stretches[lane]) stretches[lane] = work.stretches[i][lane];
 }
 
-/* Whether nothing happens between the kick and the drift of a substep that needs all points at once. Then
- * tasks do both. */
+/* Whether no operation between the kick and the drift of a substep needs all points. Then each task does
+ * both. */
 static inline bool sbri_drifts_with_kick(const sbri_island_tick *t, float self_s) {
   const sbri_body *body = &t->model->bodies[t->island->bodies[0]];
   bool is_self_damped = !body->is_pinned && self_s > 0 && body->damping.alpha_1_s > 0;
@@ -236,9 +237,9 @@ static inline bool sbri_drifts_with_kick(const sbri_island_tick *t, float self_s
 }
 
 /* v += h a(x), then damping. Bodies without pins are damped for the last `self_s` seconds; 0: not in this
- * substep. A shared damping acts in the middle of the drift, where positions and velocities belong to the
- * same time. Before the drift, modes with a phase of a multiple of pi over the shared substeps would gain
- * energy. With `drifts` (sbri_drifts_with_kick), then x += h v as well. */
+ * substep. A damping of several substeps acts in the middle of the drift, where positions and velocities
+ * belong to the same time. Before the drift, it would add energy to modes whose phase over these substeps is
+ * a multiple of pi. With `drifts` (sbri_drifts_with_kick), then x += h v as well. */
 static inline void sbri_kick(const sbri_island_tick *t, float h, float self_s, bool is_deferred, bool last,
     bool drifts, float *stretches) {
   float ahead_s = is_deferred ? 0.5f * h : 0;
@@ -262,7 +263,7 @@ static inline void sbri_kick(const sbri_island_tick *t, float h, float self_s, b
     if (!body->is_pinned && self_s > 0 && body->damping.alpha_1_s > 0)
       sbri_self_damp(t, body, self_s, ahead_s);
   }
-  if (sbri_are_forces_divided(t)) { /* those on pinned points, which nothing reads */
+  if (sbri_are_forces_divided(t)) { /* forces on pinned points, which are not used */
     sbri_join_forces(t, t->island->free_count, t->island->slot_count);
     sbri_clear_forces(t, t->island->free_count, t->island->slot_count);
   }
@@ -400,8 +401,8 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
   return max;
 }
 
-/* Upper bound of sbri_impact_speed by one pass: its mean and what is relative to it are each at most once and
- * twice the greatest speed. The last hundredth is for rounding. */
+/* Upper bound of sbri_impact_speed by one pass. The mean is at most the greatest speed, and a velocity
+ * relative to the mean at most twice that. The last hundredth is for rounding. */
 static inline float sbri_impact_speed_bound(const sbri_island_tick *t) {
   sbri_wide square = sbri_wide_all(0);
   float squares[SBRI_LANES], max = 0;

@@ -17,7 +17,7 @@
 
 /* Relative tolerance of a limit. */
 #define SBRI_LIMIT_SLACK 2e-6f
-/* Maximum relative change of an angular velocity by a change of arm length. Keeps heaps from bursting. */
+/* Maximum relative change of an angular velocity by a change of arm length. Prevents piles from exploding. */
 #define SBRI_LIMIT_MAX_ANGULAR_CHANGE 0.2f
 
 static inline void sbri_shift_slot(

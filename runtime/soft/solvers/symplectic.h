@@ -27,12 +27,12 @@ static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {
   return t->collides || sbri_soft_contacts_any(t) ? 1 : SBRI_SELF_DAMP_EVERY;
 }
 
-/* Distance that a point may travel between two checks, in cells, if the marks of compressed blocks are to
- * hold until the next. An element of half its volume then stays above the limit. */
+/* Maximum distance that a point may travel between two checks, in cells, for the marks of compressed blocks
+ * to remain valid until the next check. An element of half its volume then stays above the limit. */
 #define SBRI_MARKED_TRAVEL 0.1f
 
-/* After a check, before substeps of h: has all blocks checked by the compression limit if something is fast.
- */
+/* After a check, before substeps of h: marks all blocks as compressed if any point is too fast for the
+ * present marks. */
 static inline void sbri_keep_marks_if_slow(const sbri_island_tick *t, float h) {
   float travel = SBRI_CHECK_INTERVAL * h * sbri_impact_speed_bound(t);
   if (t->fraction < 1 || !(travel <= SBRI_MARKED_TRAVEL * t->island->stability.cell_m))

@@ -66,7 +66,7 @@ uint32_t sbr_character_get_tetrahedra(const sbr_world *world, sbr_character_id c
   for (uint32_t t = 0; tetrahedra && t < body->elements.tetrahedron_count && t < capacity; t++) {
     uint32_t at = island->tetrahedra.lanes[2 * (body->elements.first_tetrahedron + t)];
     tetrahedra[t] = state_of(&blocks[at / SBRI_BLOCK], at % SBRI_BLOCK, positions);
-    /* Moduli scale so that bodies of all sizes move alike: forces with the cube, areas with the square. */
+    /* Moduli scale so that bodies of all sizes move equally: forces with the cube, areas with the square. */
     float s = c->scale;
     for (int i = 0; i < 6; i++) tetrahedra[t].stress[i] *= s;
     tetrahedra[t].energy_density *= s, tetrahedra[t].rest_volume *= s * s * s;

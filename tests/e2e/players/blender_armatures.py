@@ -1,5 +1,5 @@
 """In Blender: characters with armatures that are scaled, turned, below others or shared, saved as glTF in a frame of their clip, some
-by way of FBX. Into a folder; the JSON says of each file where every vertex is at rest, and where in that frame, in glTF's axes."""
+by way of FBX. Writes to a folder. The JSON lists, for each file, the position of every vertex at rest and in that frame, in glTF's axes."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""In Blender: what a Mesh Cache modifier shows of a point cache at a frame, as JSON in a file: the places of its points, in the cache's axes."""
+"""In Blender: the points of a Mesh Cache modifier at a frame of a point cache, as JSON in a file: positions in the cache's axes."""
 
 import json
 import sys
