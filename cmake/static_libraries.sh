@@ -102,7 +102,7 @@ build() {
   fi
   {
     cmake -G "$generator" -S "$work/sources/$package" -B "$tree" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF \
-      -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_PREFIX_PATH="$work/made$folder" \
+      -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_INSTALL_LIBDIR:STRING=lib -DCMAKE_PREFIX_PATH="$work/made$folder" \
       ${toolchain:+"-DCMAKE_TOOLCHAIN_FILE=$toolchain" "-DCMAKE_FIND_ROOT_PATH=$work/made$folder"} "$@" &&
       cmake --build "$tree" && DESTDIR=$work/made cmake --install "$tree"
   } >>"$log" 2>&1 || {

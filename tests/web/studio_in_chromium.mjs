@@ -141,6 +141,21 @@ expect(await tab.evaluate(() => {
 await tab.click('#pause');
 await tab.selectOption('#count', '1');
 await tab.selectOption('#ground', 'flat');
+// A gamepad steers: its stick back and to the left, then its first button.
+await tab.evaluate(() => {
+  globalThis.pad = { connected: true, mapping: 'standard', axes: [-1, 1, 0, 0], buttons: Array.from({ length: 17 }, () => ({ pressed: false, value: 0 })) };
+  navigator.getGamepads = () => [null, globalThis.pad];
+  const { character } = studio.stage, { drive } = character;
+  character.drive = (...asked) => {
+    globalThis.asked = asked;
+    drive.apply(character, asked);
+  };
+});
+await tab.waitForFunction(() => globalThis.asked?.[0] < 0 && globalThis.asked[1] > 0);
+await tab.evaluate(() => { globalThis.pad.buttons[0].pressed = true; });
+await tab.waitForFunction(() => studio.stage.character.posture !== 'up');
+await tab.evaluate(() => { navigator.getGamepads = () => []; });
+await tab.waitForFunction(() => globalThis.asked[1] === 0);
 
 // Esc ends it; what is on the stage stays.
 const title = await tab.textContent('#title');
@@ -163,14 +178,38 @@ await tab.click('#troubleAway');
 await made(() => drop('koi.glb'));
 lap('koi.glb dropped');
 await tab.waitForFunction(() => studio.stage.character.distance > 0.05);
+const lowest = await tab.evaluate(() => {
+  const { stage } = studio, { character } = stage, heights = character.skin(0).positions.filter((_, i) => i % 3 === 1);
+  return (heights.reduce((least, y) => Math.min(least, y)) + character.origin[1]) / stage.size;
+});
+expect(lowest > 0.1, `the koi swims ${lowest} of its size above the floor`);
 await tab.click('#tabOpen');
 await made(() => tab.setInputFiles('#file', ['lizard.glb', 'lizard.mtl', 'lizard.obj'].map(source)));
 lap('lizard.obj with its rig');
 const lizard = await tab.evaluate(() => studio.made.packed.length);
 expect(lizard === bytesOf('lizard.sbfz').length, `the lizard has ${lizard} bytes, natively ${bytesOf('lizard.sbfz').length}`);
 await tab.click('#tabShape');
+// A modulus is seen before it is built: springs are as stiff as those that are then built.
+await tab.evaluate(() => {
+  studio.shown = [];
+  const { stage } = studio, display = stage.display;
+  stage.display = (bytes, stay) => {
+    studio.shown.push({ bytes, isBuilt: studio.made !== studio.before });
+    display.call(stage, bytes, stay);
+  };
+});
 await made(() => moveSlider('#materialNumbers input >> nth=0', 0.6));
 lap("lizard's modulus moved");
+const foreseen = await tab.evaluate(() => {
+  const { made, before, shown } = studio, bundle = new made.bundle.constructor(new TextDecoder().decode(before.bytes));
+  bundle.foreseeNumber('', 'young_modulus', made.bundle.parts[0].numbers.young_modulus);
+  const stiffness = (one) => one.all('spring_set > stiffness').flatMap((list) => list.textContent.trim().split(/\s+/).map(Number));
+  const built = stiffness(made.bundle), early = stiffness(bundle);
+  return { shown: shown.map(({ bytes, isBuilt }) => [isBuilt, bytes === made.packed]), count: built.length, same: built.length === early.length,
+    off: built.reduce((most, one, i) => Math.max(most, Math.abs(early[i] / one - 1)), 0) };
+});
+expect(String(foreseen.shown) === 'false,false', `the lizard's modulus is shown ${foreseen.shown}`);
+expect(foreseen.count > 1000 && foreseen.same && foreseen.off < 1e-4, `${foreseen.count} springs are foreseen, off by ${foreseen.off}`);
 
 // Everything has a name; text is easy to read by day and by night; a narrow window shows all.
 const nameless = () => tab.evaluate(() => [...document.querySelectorAll('button, input, select, a, summary, [tabindex]')].filter((one) => one.checkVisibility() &&

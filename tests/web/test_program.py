@@ -4,6 +4,7 @@ bytes, words and exit statuses. Without a tarball it is the one in build/package
 import glob
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -14,6 +15,11 @@ EXAMPLES = os.path.join(web_files.SOURCE, "examples")
 LIZARD = os.path.join(EXAMPLES, "lizard", "lizard.obj")
 RIG = os.path.join(EXAMPLES, "lizard", "lizard.glb")
 FIGURE = os.path.join(EXAMPLES, "bones", "figure.sbf")
+# A mesh with a JPEG texture beside it.
+JPEG = os.path.join(web_files.SOURCE, "tests", "render", "images", "quarters.jpg")
+PANEL = {"panel.obj": "mtllib panel.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl skin\n"
+                      "f 1/1 2/2 4/4\nf 2/2 3/3 4/4\nf 3/3 1/1 4/4\nf 1/1 3/3 2/2\n",
+         "panel.mtl": "newmtl skin\nmap_Kd quarters.jpg\n"}
 # Words of each call; OUT is a file of its own.
 CALLS = [
     ["--version"],
@@ -31,6 +37,9 @@ CALLS = [
     ["export", "lizard.sbf", "-o", "lizard.xml"],
     ["export", "lizard.sbf", "-o", "mj.mjcf.xml"],
     ["export", "lizard.sbf", "-o", "page.html"],
+    ["convert", "panel.obj", "-o", "panel.sbf"],
+    ["pack", "panel.sbf", "-o", "panel.glb"],
+    ["validate", "panel.glb"],
     # What cannot be done says so with the same words and status.
     ["validate", "not-there.sbf"],
     ["convert", "broken.glb", "-o", "none.sbf"],
@@ -62,6 +71,9 @@ def compare(node, native, folder):
         os.mkdir(place)
         web_files.write(place, "broken.glb", "glTF and nothing else")
         web_files.write(place, "broken.fbx", "; FBX 7.3.0 project file\nObjects: {")
+        for name, text in PANEL.items():
+            web_files.write(place, name, text)
+        shutil.copy(JPEG, place)
     faults = []
     for words in CALLS:
         one, other = call(native, words, here), call(node, words, there)

@@ -36,6 +36,17 @@ def native(folder):
             "made": {"sbf": "pup.sbf", "sbfz": "made.sbfz", "glb": "made.glb", "html": "made.html"}}
 
 
+def unpack(given, folder):
+    """The studio of the given package, or of the one in build/packages."""
+    made = given or sorted(glob.glob(os.path.join(web_files.SOURCE, "build", "packages", "sbfmt-studio-*.zip")))
+    if not made:
+        web_files.skip("no studio was made: ./run package studio")
+    unpacked = os.path.join(folder, "unpacked with spaces, ü")
+    with zipfile.ZipFile(made[0]) as archive:
+        archive.extractall(unpacked)
+    return os.path.join(unpacked, "sbfmt-studio")
+
+
 def first_picture(folder):
     """Bytes that are read before something is seen, as they lie on disk: the parts hold what is compressed already."""
     return sum(os.path.getsize(os.path.join(folder, name)) for name in ("index.html", "parts/runtime.js", "parts/first.js"))
@@ -43,18 +54,12 @@ def first_picture(folder):
 
 def main():
     web_files.need("node", "npm", "chromium")
-    made = sys.argv[1:] or sorted(glob.glob(os.path.join(web_files.SOURCE, "build", "packages", "sbfmt-studio-*.zip")))
-    if not made:
-        web_files.skip("no studio was made: ./run package studio")
     modules = web_files.playwright()
     pictures = os.path.join(web_files.BUILD, "web-pictures")
     os.makedirs(pictures, exist_ok=True)
     script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "studio_in_chromium.mjs")
     with tempfile.TemporaryDirectory() as folder:
-        unpacked = os.path.join(folder, "unpacked with spaces, ü")
-        with zipfile.ZipFile(made[0]) as archive:
-            archive.extractall(unpacked)
-        studio = os.path.join(unpacked, "sbfmt-studio")
+        studio = unpack(sys.argv[1:], folder)
         sources = os.path.join(folder, "sources")
         os.mkdir(sources)
         for name in ("pup/pup.glb", "koi/koi.glb", "lizard/lizard.obj", "lizard/lizard.mtl", "lizard/lizard.glb"):

@@ -20,7 +20,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.join(HERE, "..", "..", "..", "examples")
 FIRST, OTHERS = "pup", ("pup", "koi", "snake", "spider")
 # Modules in the order of their imports; those of the exported page before those of the studio.
-OWN = ("page", "slider", "bundle", "parts", "program", "recipe", "chart", "take", "film", "drop", "shape", "stage")
+OWN = ("page", "slider", "bundle", "parts", "program", "recipe", "chart", "take", "film", "drop", "shape", "gamepad", "stage")
 SHARED = ("viewer_draw.js", "viewer_stage.js", "viewer_hands.js", "viewer_show.js")
 
 

@@ -68,11 +68,15 @@ class Studio {
     this.offerUndo();
     this.tellWork(first ? `Reading ${recipe.input}` : 'Rebuilding');
     try {
-      const made = await recipe.make({ signal: abort.signal, progress: ({ what, fraction }) => this.tellWork(what, fraction) });
+      const options = { signal: abort.signal, progress: ({ what, fraction }) => this.tellWork(what, fraction) };
+      const stays = !first && this.made, foreseen = stays && await recipe.foresee(stays, options);
       if (abort.signal.aborted) return;
-      const stays = !first && this.made;
+      if (foreseen) this.stage.display(foreseen.packed, true);
+      const made = await recipe.make(options);
+      if (abort.signal.aborted) return;
       this.stage.imagesBeside = new Map(recipe.images);
-      this.stage.display(made.packed, stays);
+      this.stage.choices.afloat = ['swim', 'fly'].includes(made.bundle.gait?.kind);
+      if (!foreseen || foreseen.calibration !== made.bundle.calibration) this.stage.display(made.packed, stays);
       Object.assign(this, { recipe, made });
       this.showMade(first);
     } catch (error) {
@@ -126,7 +130,7 @@ class Studio {
     this.drive(usual, 0);
   }
   drive(speed = Number(element('speed').value), turn = Number(element('turn').value)) {
-    this.stage.choices.drive = { speed, turn };
+    this.stage.choices.drive = { speed, turn, top: Number(element('speed').max) };
     element('speedText').textContent = shortNumber(speed, 'm/s');
     element('turnText').textContent = shortNumber(turn, 'rad/s');
   }
@@ -212,9 +216,8 @@ class Studio {
     this.showChart();
   }
   showChart() {
-    const { stage } = this, model = stage.asset.softBodies.length && stage.asset.bones.length ? stage.asset.model({ detailLevels: true }) : undefined;
-    const levels = model?.detailLevels ?? [], focused = element('chart').contains(document.activeElement);
-    model?.free();
+    if (element('panelPlay').hidden) return; // measuring takes long
+    const { stage } = this, levels = stage.allDetailLevels, focused = element('chart').contains(document.activeElement);
     element('chart').replaceChildren(levels.length ? chartOf(levels, stage.choices.level, (value) => stage.choose('level', value)) : 'It has one level.');
     if (focused) element('chart').querySelector('[aria-checked="true"]')?.focus();
   }
@@ -239,7 +242,7 @@ class Studio {
       element(`panel${one}`).hidden = !is;
       if (is && focus) tab.focus();
     }
-    if (name === 'Play') this.stage.mark([]);
+    if (name === 'Play') this.stage.mark([]), this.showChart();
     // The first character is only shown until somebody wants more of it.
     if (['Shape', 'Take'].includes(name) && !this.made && !this.abort) this.make(this.recipe, true);
   }

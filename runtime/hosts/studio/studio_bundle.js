@@ -18,7 +18,14 @@ export const GAIT_NUMBERS = [
   { key: 'hip_tilt', label: 'Hips follow feet', unit: '', usual: 0.5, low: 0, high: 1, linear: true, kinds: ['walk'] },
 ];
 
+/** Numbers whose effect is known before a build: see Bundle.foreseeNumber. */
+export const FORESEEN = ['young_modulus', 'density', 'damping_ratio', 'friction'];
+
 const written = (value) => String(Number(value.toPrecision(8)));
+
+function scale(list, factor) {
+  list.textContent = list.textContent.trim().split(/\s+/).map((number) => written(number * factor)).join(' ');
+}
 
 export class Bundle {
   constructor(text) {
@@ -74,6 +81,22 @@ export class Bundle {
       if (!attributes) element.prepend(attributes = this.document.createElement('attributes'));
       attributes.setAttribute(key, written(value));
     }
+  }
+  /** Sets a number of a part, or of all soft ones, and in what a build derived from it. The stiffness of springs is proportional to
+   * Young's modulus; density, damping and friction change nothing that is derived. */
+  foreseeNumber(id, key, value) {
+    const ids = id ? [id] : this.parts.filter((one) => one.soft).map((one) => one.id), bodies = this.all('soft_body').filter((body) =>
+      ids.includes(body.getAttribute(body.hasAttribute('derived') ? 'bone' : 'id')));
+    const before = bodies.map((body) => Number(this.attributesOf(body)?.getAttribute('young_modulus')));
+    this.setNumber(id, key, value);
+    bodies.forEach((body, i) => {
+      this.attributesOf(body)?.setAttribute(key, written(value));
+      if (key === 'young_modulus' && before[i]) body.querySelectorAll('spring_set > stiffness').forEach((list) => scale(list, value / before[i]));
+    });
+  }
+  /** Factors of all calibrated moduli, to two digits. */
+  get calibration() {
+    return this.all('calibration').map((one) => Number(one.getAttribute('factor')).toPrecision(2)).join(' ');
   }
   setGait(key, value) {
     this.document.querySelector('gait')?.setAttribute(key, written(value));

@@ -1,13 +1,13 @@
 /* From the files that a visitor brings to the character: what is chosen, in steps that can be undone, and the calls of the
  * program that follow from it. */
-import { Bundle } from './studio_bundle.js';
+import { Bundle, FORESEEN } from './studio_bundle.js';
 
 export const BUNDLE_ENDINGS = ['sbf', 'sbfz'], MESH_ENDINGS = ['glb', 'gltf', 'fbx', 'dae', 'obj', 'vrm', 'bvh', 'ply', 'stl', '3ds', 'x'];
 /** Of several files the first of these is the mesh, an .obj before its rig. */
 const ORDER = ['sbfz', 'sbf', 'obj', 'glb', 'vrm', 'gltf', 'fbx', 'dae', 'ply', 'stl', '3ds', 'x', 'bvh'];
 const RIGS = ['glb', 'gltf', 'fbx', 'dae', 'bvh', 'vrm', 'x'];
-/** Results that are kept, so that undoing is quick. */
-const MOST_KEPT = 6;
+/** Results that are kept, so that undoing is quick and a step that has not changed is not taken again. */
+const MOST_KEPT = 10;
 
 export const ending = (name) => name.slice(name.lastIndexOf('.') + 1).toLowerCase();
 export const stem = (name) => name.slice(name.lastIndexOf('/') + 1).replace(/\.[^.]*$/, '');
@@ -105,54 +105,69 @@ export class Recipe {
     return [...first, ['sbfmt', 'pack', `${name}.sbf`, '-o', `${name}.sbfz`]].map(quoted).join('\n');
   }
 
-  /** The character of the present state: { text, packed, bundle, findings, seconds }. */
+  /** The character of the present state: { state, bytes, packed, bundle, findings }. */
   async make(options) {
-    const { state } = this.history, key = JSON.stringify(state), kept = this.kept.get(key);
-    if (kept) return kept;
-    const began = performance.now(), base = await this.base(state, options), findings = [...base.findings];
-    let { bytes } = base;
-    const out = `${this.name}.sbf`;
-    const materials = this.materialWords(state);
-    if (materials.length) bytes = await this.build(bytes, materials, findings, options);
-    if (Object.keys(state.soft).length || Object.keys(state.numbers).length) {
-      bytes = await this.build(this.edit(bytes, state), [], findings, options);
-    } else if (Object.keys(state.gait).length) {
-      bytes = this.edit(bytes, state); // nothing is derived from a gait
-    }
-    const packed = await this.call(['pack', out, '-o', `${this.name}.sbfz`], new Map([[out, bytes], ...this.images]), findings, options);
-    const text = new TextDecoder().decode(bytes);
-    const made = { text, bytes, packed: packed.get(`${this.name}.sbfz`), bundle: new Bundle(text), findings, seconds: (performance.now() - began) / 1000 };
-    this.keep(key, made);
-    return made;
+    const { state } = this.history;
+    return this.keep(state, async () => {
+      const built = await this.edited(state, options), findings = [...built.findings];
+      const bytes = Object.keys(state.gait).length ? this.edit(built.bytes, { gait: state.gait }) : built.bytes; // nothing is derived from a gait
+      return { state, bytes, packed: await this.pack(bytes, [], findings, options), bundle: new Bundle(new TextDecoder().decode(bytes)), findings };
+    });
   }
-  keep(key, made) {
-    this.kept.set(key, made);
-    if (this.kept.size > MOST_KEPT) this.kept.delete(this.kept.keys().next().value);
+  /** What make() will give, before it is built: { packed, calibration }. Only where a change from `made` shows in few numbers. */
+  async foresee(made, options) {
+    const { state } = this.history, rest = (one) => JSON.stringify([one.convert, one.materials, one.soft]), values = Object.entries(state.numbers);
+    const isLost = (before, now) => Object.keys(before).some((key) => !(key in now));
+    const others = ({ numbers }) => JSON.stringify(Object.entries(numbers).map(([id, all]) => [id, ...Object.entries(all).filter(([key]) => !FORESEEN.includes(key))]).filter((one) => one.length > 1));
+    if (this.kept.has(JSON.stringify(state)) || JSON.stringify(state.numbers) === JSON.stringify(made.state.numbers) || rest(state) !== rest(made.state) ||
+      others(state) !== others(made.state) || isLost(made.state.gait, state.gait) ||
+      Object.entries(made.state.numbers).some(([id, before]) => isLost(before, state.numbers[id] ?? {}))) return undefined;
+    const bundle = new Bundle(new TextDecoder().decode(made.bytes));
+    for (const [id, all] of values) for (const [key, value] of Object.entries(all)) if (FORESEEN.includes(key)) bundle.foreseeNumber(id, key, value);
+    for (const [key, value] of Object.entries(state.gait)) bundle.setGait(key, value);
+    return { packed: await this.pack(new TextEncoder().encode(bundle.text), ['--store'], [], options), calibration: bundle.calibration };
   }
 
-  /** The source converted, before any other change. */
-  async base(state, options) {
-    const key = JSON.stringify(state.convert), kept = this.kept.get(key);
-    if (kept) {
-      this.kept.delete(key); // and so the last to be dropped
-      this.kept.set(key, kept);
-      return kept;
-    }
-    const findings = [], out = `${this.name}.sbf`;
-    const made = { findings, bytes: await this.convert(state, out, findings, options) };
-    this.keep(key, made);
-    return made;
+  // Each step begins with what the one before has made: a conversion, its materials, its edited source.
+
+  base({ convert }, options) {
+    return this.keep(['convert', convert], async () => {
+      const findings = [];
+      return { bytes: await this.convert({ convert }, `${this.name}.sbf`, findings, options), findings };
+    });
+  }
+  async preset(state, options) {
+    const base = await this.base(state, options), words = this.materialWords(state);
+    return words.length ? this.keep(['materials', state.convert, state.materials], () => this.build(base, base.bytes, words, options)) : base;
+  }
+  async edited(state, options) {
+    const preset = await this.preset(state, options), { convert, materials, soft, numbers } = state;
+    if (!Object.keys(soft).length && !Object.keys(numbers).length) return preset;
+    return this.keep(['edited', convert, materials, soft, numbers], () => this.build(preset, this.edit(preset.bytes, { soft, numbers }), [], options));
+  }
+  /** The kept result of that name, or a new one. */
+  async keep(name, make) {
+    const key = JSON.stringify(name), result = this.kept.get(key) ?? await make();
+    this.kept.delete(key); // so that it is the last to be dropped
+    this.kept.set(key, result);
+    if (this.kept.size > MOST_KEPT) this.kept.delete(this.kept.keys().next().value);
+    return result;
   }
   async convert(state, out, findings, options) {
     if (ending(this.input) === 'sbf') return this.files.get(this.input);
     if (ending(this.input) === 'sbfz') return (await this.call(['unpack', this.input, '-o', out], this.files, findings, options)).get(out);
     return (await this.call([...this.convertWords(state), '-o', out], this.files, findings, options)).get(out);
   }
-  async build(bytes, words, findings, options) {
-    const out = `${this.name}.sbf`, made = await this.call(['build', out, ...words, '-o', 'built.sbf'], new Map([[out, bytes]]), findings, options);
-    return made.get('built.sbf');
+  /** `bytes` built, with the findings of the step before and its own. */
+  async build(before, bytes, words, options) {
+    const out = `${this.name}.sbf`, findings = [...before.findings], made = await this.call(['build', out, ...words, '-o', 'built.sbf'], new Map([[out, bytes]]), findings, options);
+    return { bytes: made.get('built.sbf'), findings };
   }
-  edit(bytes, { soft, numbers, gait }) {
+  async pack(bytes, words, findings, options) {
+    const from = `${this.name}.sbf`, to = `${this.name}.sbfz`;
+    return (await this.call(['pack', from, ...words, '-o', to], new Map([[from, bytes], ...this.images]), findings, options)).get(to);
+  }
+  edit(bytes, { soft = {}, numbers = {}, gait = {} }) {
     const bundle = new Bundle(new TextDecoder().decode(bytes));
     for (const [id, is] of Object.entries(soft)) bundle.setSoft(id, is);
     for (const [id, values] of Object.entries(numbers))

@@ -1,4 +1,5 @@
 /* The characters of the studio: they walk by themselves, several together, in slow motion or step by step. */
+import { Gamepad } from './studio_gamepad.js';
 import { FRAME, Show } from './viewer_show.js';
 import { boneShapes, vector } from './viewer_draw.js';
 
@@ -7,18 +8,23 @@ const HEIGHTS = { PageUp: 1, PageDown: -1 };
 const MARK_COLOR = [1, 0.12, 0, 1], MARK_WIDTH = 0.2;
 /** Neighbours stand so many sizes apart. */
 const SPACING = 1.3;
+/** What swims or flies starts so many sizes above the ground. */
+const ALTITUDE = 0.35;
+/** Of a gamepad's sticks: rad/s of the character, and radians of the view in a tick. */
+const PAD_TURN = 1.5, PAD_VIEW = 0.04;
 
 export class StudioStage extends Show {
   constructor(sbfmt, bytes, canvas, changed) {
     super(sbfmt, bytes, canvas);
-    Object.assign(this, { changed, rate: 1, marked: [], heights: new Set() });
+    Object.assign(this, { changed, rate: 1, marked: [], heights: new Set(), gamepad: new Gamepad() });
   }
 
   put(asset) {
     this.marked = [];
     this.choices.count ??= 1;
-    this.choices.drive ??= { speed: 0, turn: 0 };
+    this.choices.drive ??= { speed: 0, turn: 0, top: 1 };
     super.put(asset);
+    this.camera.focus = this.subject;
   }
 
   /** Shows other bytes; `stay`: of the same character, so the view, the ground and the position stay. */
@@ -38,11 +44,11 @@ export class StudioStage extends Show {
   }
 
   restart(ground, at) {
-    super.restart(ground, at);
-    const { position: [x, , z] } = { position: [0, 0, 0], ...at };
+    const [x, , z] = at?.position ?? [0, 0, 0], y = this.choices.afloat ? ALTITUDE * this.size : 0;
+    super.restart(ground, { position: [x, y, z] });
     for (let i = 1; i < this.choices.count; i++) {
       const aside = SPACING * this.size * Math.ceil(i / 2) * (i % 2 ? 1 : -1);
-      const character = this.world.add(this.model, { position: [x + aside, 0, z] });
+      const character = this.world.add(this.model, { position: [x + aside, y, z] });
       this.others.push({ character, skins: this.dress(character) });
     }
     this.changed?.();
@@ -53,11 +59,16 @@ export class StudioStage extends Show {
     if (name === 'count') this.camera.distance = this.size * (1.2 + 0.4 * value); // so that all are seen
   }
 
-  /** What is asked of every character: keys, or else the speed and turn of the panel. */
+  /** What is asked of every character: keys, a gamepad, or else the speed and turn of the panel. */
   steer() {
+    const { speed, turn, top } = this.choices.drive, pad = this.gamepad.read(), climb = Math.max(speed, 0.2 * this.size);
+    const up = [...this.heights].reduce((sum, key) => sum + HEIGHTS[key], 0) * climb;
     if (this.keys.size) super.steer();
-    const { speed, turn } = this.choices.drive, up = [...this.heights].reduce((sum, key) => sum + HEIGHTS[key], 0) * Math.max(speed, 0.2 * this.size);
-    if (!this.keys.size) this.character.drive(speed, turn, 0, up);
+    else if (pad) this.character.drive(pad.forward * top, pad.turn * PAD_TURN, 0, pad.up * climb);
+    else this.character.drive(speed, turn, 0, up);
+    if (pad) this.orbit(pad.yaw * PAD_VIEW, -pad.pitch * PAD_VIEW);
+    if (pad?.knock && this.mass) this.character.fall();
+    if (pad?.ball) this.throwBall();
     for (const { character } of this.others) character.drive(speed, turn, 0, up);
   }
 

@@ -46,31 +46,36 @@ export class Stage {
   /** Puts a character on the stage, the one before gone. */
   put(asset) {
     this.clear();
-    Object.assign(this, { asset, size: 1 });
+    this.model?.free();
+    Object.assign(this, { asset, size: 1, model: undefined, detailTable: undefined });
     Object.assign(this.choices, { level: 0, renderLevel: 0 });
-    this.detailLevels = this.detailLevelsBelow();
     this.restart();
     this.frameCamera();
     this.restart(); // now that the size is known
   }
 
-  /** Frees the world and its meshes. */
+  /** Frees the world and its meshes. The model stays, because it takes long to make. */
   clear() {
     this.world?.free();
-    this.model?.free();
     for (const { skins } of this.world ? this.cast : []) skins.forEach((one) => this.painter.freeMesh(one.mesh));
     if (this.groundMesh) this.painter.freeMesh(this.groundMesh);
-    Object.assign(this, { balls: [], skins: [], others: [], world: undefined, model: undefined, groundMesh: undefined });
+    Object.assign(this, { balls: [], skins: [], others: [], world: undefined, groundMesh: undefined });
   }
 
-  /** What the runtime has that is coarser than the file's levels. */
-  detailLevelsBelow() {
-    if (!this.asset.softBodies.length || !this.asset.bones.length) return [];
-    const model = this.asset.model({ detailLevels: true }), found = model.detailLevels.filter(({ kind }) => kind === 'jiggle' || kind === 'bones');
+  /** All detail levels of the character, finest first. Measured when they are first asked for. */
+  get allDetailLevels() {
+    if (this.detailTable) return this.detailTable;
+    if (!this.asset.softBodies.length || !this.asset.bones.length) return this.detailTable = [];
+    const model = this.asset.model({ detailLevels: true });
+    this.detailTable = model.detailLevels;
     model.free();
-    return found;
+    return this.detailTable;
   }
-  /** Of the chosen level, m; 0: nobody has measured it. */
+  /** What the runtime has that is coarser than the file's levels. */
+  get detailLevels() {
+    return this.allDetailLevels.filter(({ kind }) => kind === 'jiggle' || kind === 'bones');
+  }
+  /** Of the chosen level, m; 0: not measured. */
   get statedError() {
     const { level } = this.choices;
     return Number.isInteger(level) ? this.asset.levelError(level) : this.detailLevels.find(({ kind }) => kind === level).error;
@@ -80,7 +85,7 @@ export class Stage {
   restart(ground = LANDS[this.choices.ground](this.size), at) {
     this.clear();
     const { level } = this.choices, ofFile = Number.isInteger(level);
-    this.model = this.asset.model(ofFile ? { level } : { detailLevels: true });
+    this.modelOf(ofFile ? level : 'all');
     this.ground = ground;
     this.world = this.sbfmt.world({ ground });
     this.character = this.world.add(this.model, at);
@@ -89,6 +94,15 @@ export class Stage {
     this.rigidOf = new Map(this.asset.rigidBodies.map((body) => [body.bone, body.index]));
     this.mass = this.asset.rigidBodies.reduce((sum, body) => sum + this.character.rigidState(body.index).mass, 0);
     this.time = 0;
+  }
+
+  /** Has `model` be that of a level of the file, or of all detail levels. */
+  modelOf(what) {
+    if (this.model && this.modelled === what) return;
+    this.model?.free();
+    this.model = undefined;
+    this.model = this.asset.model(what === 'all' ? { detailLevels: true } : { level: what });
+    this.modelled = what;
   }
 
   meshOf({ positions, normals, indices }) {
