@@ -63,7 +63,6 @@ typedef struct sbri_contact_rule {
   float max_correction_m; /* maximum correction of penetration in a substep, m */
   float slack_m;          /* penetration that is not corrected, m */
   float bounce_from_m_s;  /* minimum approach speed of a bounce, m/s */
-  float tolerance_m_s;    /* iterations end when none changes a velocity by more, m/s */
   float *pressing;        /* as in sbri_island_tick; for points with planes */
 } sbri_contact_rule;
 

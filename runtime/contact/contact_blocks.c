@@ -50,8 +50,8 @@ static void fill_lane(const sbri_island_tick *t, const sbri_body *body, const sb
   for (int k = 0; k < 4; k++) {
     uint32_t slot = s->slots[k];
     bool free = slot < island->free_count;
-    block->slots[k][lane] = slot, block->weights[k][lane] = s->weights[k];
-    block->responses[k][lane] = free ? s->weights[k] * island->inverse_masses[slot] * s->mass_kg : 0;
+    block->sample.slots[k][lane] = slot, block->sample.weights[k][lane] = s->weights[k];
+    block->sample.responses[k][lane] = free ? s->weights[k] * island->inverse_masses[slot] * s->mass_kg : 0;
     t->contacts.slots[slot / SBRI_BLOCK] = 1;
   }
   float weight_sum =
@@ -59,7 +59,7 @@ static void fill_lane(const sbri_island_tick *t, const sbri_body *body, const sb
   block->max_weight_sum = fmaxf(block->max_weight_sum, weight_sum);
   set3(block->normal, lane, contact->normal);
   set3(block->velocity, lane, contact->velocity);
-  block->offset[lane] = contact->offset, block->mass_kg[lane] = s->mass_kg;
+  block->offset[lane] = contact->offset, block->sample.mass_kg[lane] = s->mass_kg;
   block->friction[lane] = sbri_contact_friction_at(t, body, contact);
   block->restitution[lane] = contact->restitution;
   sbf_vec3 v = contact->velocity;
@@ -67,7 +67,7 @@ static void fill_lane(const sbri_island_tick *t, const sbri_body *body, const sb
 }
 
 static void fill_unused(sbri_contact_block *block, uint32_t lane) {
-  for (int k = 0; k < 4; k++) block->slots[k][lane] = block->slots[k][0];
+  for (int k = 0; k < 4; k++) block->sample.slots[k][lane] = block->sample.slots[k][0];
   block->offset[lane] = -FAR_M, block->contacts[lane] = UINT32_MAX;
 }
 
@@ -104,21 +104,21 @@ void sbri_contact_blocks_unpack(const sbri_island_tick *t, const sbri_body *body
     contact->offset = block->offset[lane];
     contact->velocity_change = block->velocity_change[lane];
     contact->friction_impulse = get3(block->friction_impulse, lane);
-    contact->max_velocity_change = block->max_velocity_change[lane],
-    contact->closing_speed = block->closing_speed[lane];
+    contact->max_velocity_change = block->of_tick.max_velocity_change[lane],
+    contact->closing_speed = block->of_tick.closing_speed[lane];
     contact->total_velocity_change =
-        sbri_add(contact->total_velocity_change, get3(block->total_velocity_change, lane));
-    set3(block->total_velocity_change, lane, sbri_vec3(0, 0, 0));
+        sbri_add(contact->total_velocity_change, get3(block->of_tick.velocity_change, lane));
+    set3(block->of_tick.velocity_change, lane, sbri_vec3(0, 0, 0));
   }
 }
 
 static void advance_lane(sbri_contact_block *block, uint32_t lane, float step_s) {
   sbri_pressing before = {
-      block->pressing_change[lane], block->pressing_s[lane], block->pressing_deficit[lane]};
+      block->pressing.velocity_change[lane], block->pressing.time_s[lane], block->pressing.deficit[lane]};
   sbri_pressing now =
-      sbri_pressing_add(before, block->velocity_change[lane], block->closing_speed[lane], step_s);
-  block->pressing_change[lane] = now.velocity_change, block->pressing_s[lane] = now.time_s;
-  block->pressing_deficit[lane] = now.deficit;
+      sbri_pressing_add(before, block->velocity_change[lane], block->of_tick.closing_speed[lane], step_s);
+  block->pressing.velocity_change[lane] = now.velocity_change, block->pressing.time_s[lane] = now.time_s;
+  block->pressing.deficit[lane] = now.deficit;
 }
 
 void sbri_contact_blocks_advance(const sbri_island_tick *t, const sbri_body *body, float step_s) {

@@ -5,6 +5,9 @@
 /* Cosine of the angle between normals that count as one direction. */
 static const float SIMILAR_COSINE = 0.9f;
 
+/* The limit saves less than it costs on fewer contacts. */
+enum { MIN_LIMITED = 256 };
+
 /* Point with the greatest weight. */
 static uint32_t owner_of(const sbri_sample *s) {
   int greatest = 0;
@@ -43,7 +46,7 @@ void sbri_point_contacts_limit(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   sbri_soft_contact *contacts = tables->contacts + body->contact.first;
   uint32_t *count = &tables->contact_counts[body - t->model->bodies], kept = 0;
-  if (*count <= SBRI_CONTACTS_PER_POINT) return;
+  if (*count <= MIN_LIMITED) return;
   sbri_point_contacts *points = tables->point_contacts;
   clear(points, body->slots.begin, body->slots.end);
   if (body->is_pinned) clear(points, t->island->free_count, t->island->slot_count);

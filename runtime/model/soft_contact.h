@@ -56,15 +56,36 @@ typedef struct sbri_point_contacts {
   uint32_t count;
 } sbri_point_contacts;
 
+/* Samples of eight contacts. */
+typedef struct sbri_sample_lanes {
+  uint32_t slots[4][SBRI_BLOCK];
+  float weights[4][SBRI_BLOCK];
+  float responses[4][SBRI_BLOCK]; /* velocity change of a point per velocity change of the sample */
+  float mass_kg[SBRI_BLOCK];      /* effective mass for an impulse at the sample; 0: unused lane */
+} sbri_sample_lanes;
+
+/* sbri_pressing of eight contacts. */
+typedef struct sbri_pressing_lanes {
+  float velocity_change[SBRI_BLOCK], time_s[SBRI_BLOCK], deficit[SBRI_BLOCK];
+} sbri_pressing_lanes;
+
+/* Bounds of friction as a function of the normal velocity change. */
+typedef struct sbri_friction_bound_lanes {
+  float constant[SBRI_BLOCK], slope[SBRI_BLOCK];
+} sbri_friction_bound_lanes;
+
+/* Results in a tick, as in sbri_soft_contact. */
+typedef struct sbri_contact_tick_lanes {
+  float max_velocity_change[SBRI_BLOCK], closing_speed[SBRI_BLOCK]; /* maxima, m/s */
+  float velocity_change[3][SBRI_BLOCK];                             /* sum, m/s */
+} sbri_contact_tick_lanes;
+
 /* Eight contacts of a body with ground and colliders, which no impulse of the body moves. An unused lane has
  * weights of 0 and is far from its plane. */
 typedef struct sbri_contact_block {
-  uint32_t slots[4][SBRI_BLOCK];
+  sbri_sample_lanes sample;
   uint32_t contacts[SBRI_BLOCK]; /* index among the body's contacts; UINT32_MAX: unused lane */
-  float weights[4][SBRI_BLOCK];
-  float responses[4][SBRI_BLOCK]; /* velocity change of a point per velocity change of the sample */
   float normal[3][SBRI_BLOCK];
-  float mass_kg[SBRI_BLOCK];     /* effective mass for an impulse at the sample; 0: unused lane */
   float offset[SBRI_BLOCK];      /* n . x of the plane at the beginning of the present substep */
   float velocity[3][SBRI_BLOCK]; /* velocity of the other surface, m/s */
   float friction[SBRI_BLOCK], restitution[SBRI_BLOCK];
@@ -73,19 +94,16 @@ typedef struct sbri_contact_block {
   float gap[SBRI_BLOCK], target_speed[SBRI_BLOCK]; /* separation, m, and target normal velocity, m/s */
   float velocity_change[SBRI_BLOCK];               /* normal velocity change by the contact, m/s */
   float friction_impulse[3][SBRI_BLOCK];           /* friction, tangential */
-  float pressing_change[SBRI_BLOCK], pressing_s[SBRI_BLOCK], pressing_deficit[SBRI_BLOCK]; /* sbri_pressing */
-  float bound[SBRI_BLOCK],
-      bound_slope[SBRI_BLOCK]; /* of friction, as a function of the normal velocity change */
-  float max_velocity_change[SBRI_BLOCK],
-      closing_speed[SBRI_BLOCK];              /* maxima in the tick, as in sbri_soft_contact */
-  float total_velocity_change[3][SBRI_BLOCK]; /* sum of velocity changes in the tick, m/s */
-  float
-      clearance_m; /* separation of the nearest contact at the last check, minus the possible motion since */
-  float
-      max_weight_sum; /* maximum sum of absolute weights: speed of a sample over that of its fastest point */
-  bool is_moving;     /* some plane moves */
-  bool is_near;       /* not idle in this substep */
-  bool has_impulses;  /* some lane has an impulse, from the warm start or an iteration */
+  sbri_pressing_lanes pressing;
+  sbri_friction_bound_lanes friction_bound;
+  sbri_contact_tick_lanes of_tick;
+  float max_weight_sum; /* maximum sum of a sample's absolute weights: it is at most so many times as fast as
+                           its fastest point */
+  float clearance_m;    /* separation of the nearest contact at the last check, minus the possible motion
+                           since */
+  bool is_moving;       /* some plane moves */
+  bool is_near;         /* not idle in this substep */
+  bool has_impulses;    /* some lane has an impulse, from the warm start or an iteration */
 } sbri_contact_block;
 
 #endif

@@ -23,7 +23,8 @@
 #include "contact/contact_block.h"
 #include "soft/solvers/spring_forces.h"
 
-/* Of a substep; they end earlier at the tolerance of sbri_contact_rule. */
+/* Iterations of a substep end when no velocity changes by more than this in one, m/s, and at the maximum. */
+#define SBRI_CONTACT_TOLERANCE_M_S 1e-3f
 enum { SBRI_MAX_CONTACT_ITERATIONS = 16 };
 /* A contact is skipped in a substep if it would not reach its plane even if it were this much faster, m/s. */
 #define SBRI_CONTACT_NEAR_M_S 1.0f
@@ -48,8 +49,8 @@ SBRI_INLINE sbri_wide3 sbri_contact_blend(
   sbri_wide zero = sbri_wide_all(0);
   sbri_wide3 sum = {zero, zero, zero};
   for (int k = 0; k < 4; k++) {
-    sbri_wide3 p = sbri_wide_gather(points, block->slots[k] + lane);
-    sbri_wide w = sbri_wide_load(block->weights[k] + lane);
+    sbri_wide3 p = sbri_wide_gather(points, block->sample.slots[k] + lane);
+    sbri_wide w = sbri_wide_load(block->sample.weights[k] + lane);
     sum.x = sum.x + w * p.x, sum.y = sum.y + w * p.y, sum.z = sum.z + w * p.z;
   }
   return sum;
@@ -62,9 +63,9 @@ SBRI_INLINE void sbri_contact_scatter(
   for (int k = 0; k < 4; k++)
     for (uint32_t group = 0; group < SBRI_CONTACT_GROUPS; group++) {
       uint32_t lane = group * SBRI_LANES;
-      sbri_wide r = sbri_wide_load(block->responses[k] + lane);
+      sbri_wide r = sbri_wide_load(block->sample.responses[k] + lane);
       sbri_wide3 c = changes[group];
-      sbri_wide_scatter_add(points, block->slots[k] + lane, (sbri_wide3){r * c.x, r * c.y, r * c.z});
+      sbri_wide_scatter_add(points, block->sample.slots[k] + lane, (sbri_wide3){r * c.x, r * c.y, r * c.z});
     }
 }
 
@@ -104,15 +105,15 @@ SBRI_INLINE void sbri_contact_bound_friction(sbri_contact_block *block, uint32_t
   const float owed_fraction = SBRI_PRESSING_DEFICIT_FRACTION, kept_fraction = 1 - 1 / SBRI_PRESSING_SUBSTEPS;
   sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(step_s), old_fraction = sbri_wide_all(kept_fraction);
   sbri_wide owing = sbri_wide_all(owed_fraction), paid = sbri_wide_all(1 - owed_fraction);
-  sbri_wide time = sbri_wide_load(block->pressing_s + lane);
+  sbri_wide time = sbri_wide_load(block->pressing.time_s + lane);
   sbri_wide mean = h / sbri_wide_max(old_fraction * time + h, h);
-  sbri_wide before = old_fraction * sbri_wide_load(block->pressing_change + lane);
+  sbri_wide before = old_fraction * sbri_wide_load(block->pressing.velocity_change + lane);
   sbri_mask pressed =
-      (time > zero) & (sbri_wide_load(block->closing_speed + lane) <= sbri_wide_all(SBRI_STRIKE_M_S));
-  sbri_wide bound = paid * (mean * before + owing * sbri_wide_load(block->pressing_deficit + lane)),
+      (time > zero) & (sbri_wide_load(block->of_tick.closing_speed + lane) <= sbri_wide_all(SBRI_STRIKE_M_S));
+  sbri_wide bound = paid * (mean * before + owing * sbri_wide_load(block->pressing.deficit + lane)),
             slope = paid * mean + owing;
-  sbri_wide_store(block->bound + lane, sbri_wide_select(pressed, bound, zero));
-  sbri_wide_store(block->bound_slope + lane, sbri_wide_select(pressed, slope, sbri_wide_all(1)));
+  sbri_wide_store(block->friction_bound.constant + lane, sbri_wide_select(pressed, bound, zero));
+  sbri_wide_store(block->friction_bound.slope + lane, sbri_wide_select(pressed, slope, sbri_wide_all(1)));
 }
 
 /* Finds gaps, target velocities and bounds of friction of a group of lanes. Returns whether the set of active
@@ -123,7 +124,7 @@ SBRI_INLINE bool sbri_contact_begin_lanes(const sbri_island_tick *t, sbri_contac
   sbri_wide3 n = sbri_load_rows(block->normal, lane), plane_velocity = sbri_load_rows(block->velocity, lane);
   sbri_wide3 v = sbri_contact_blend(t->scratch.velocity_points, block, lane);
   v.x = v.x - plane_velocity.x, v.y = v.y - plane_velocity.y, v.z = v.z - plane_velocity.z;
-  sbri_wide speed = sbri_wide3_along(n, v), closing = sbri_wide_load(block->closing_speed + lane);
+  sbri_wide speed = sbri_wide3_along(n, v), closing = sbri_wide_load(block->of_tick.closing_speed + lane);
   sbri_wide gap = sbri_wide3_along(n, sbri_contact_blend(t->positions, block, lane)) -
                   sbri_wide_load(block->offset + lane);
   sbri_wide old_change = sbri_wide_load(block->velocity_change + lane);
@@ -136,9 +137,9 @@ SBRI_INLINE bool sbri_contact_begin_lanes(const sbri_island_tick *t, sbri_contac
       block->target_speed + lane, sbri_wide_select(bounces, sbri_wide_max(bounce, arrival), arrival));
   sbri_wide_store(block->gap + lane, gap);
   /* Only the first impulse of the tick counts: later ones come from the body's own vibration. */
-  sbri_mask first = arrives & (sbri_wide_load(block->max_velocity_change + lane) <= zero);
+  sbri_mask first = arrives & (sbri_wide_load(block->of_tick.max_velocity_change + lane) <= zero);
   closing = sbri_wide_select(first, sbri_wide_max(closing, zero - speed), closing);
-  sbri_wide_store(block->closing_speed + lane, closing);
+  sbri_wide_store(block->of_tick.closing_speed + lane, closing);
   sbri_wide active = sbri_wide_select(arrives | (old_change > zero), one, zero);
   bool changed = sbri_mask_any(active != sbri_wide_load(block->active + lane));
   sbri_wide_store(block->active + lane, active);
@@ -175,14 +176,15 @@ static inline void sbri_contact_sum_rows(
   for (uint32_t b = 0; b < count; b++)
     for (int k = 0; blocks[b].is_near && k < 4; k++)
       for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
-        sums[blocks[b].slots[k][lane]] += fabsf(blocks[b].weights[k][lane]) * blocks[b].active[lane];
+        sums[blocks[b].sample.slots[k][lane]] +=
+            fabsf(blocks[b].sample.weights[k][lane]) * blocks[b].active[lane];
   for (uint32_t b = 0; b < count; b++) {
     sbri_contact_block *block = &blocks[b];
     for (uint32_t lane = 0; block->is_near && lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_wide zero = sbri_wide_all(0), row = zero;
       for (int k = 0; k < 4; k++) {
-        sbri_wide r = sbri_wide_load(block->responses[k] + lane);
-        row = row + sbri_wide_max(r, zero - r) * sbri_wide_gather_floats(sums, block->slots[k] + lane);
+        sbri_wide r = sbri_wide_load(block->sample.responses[k] + lane);
+        row = row + sbri_wide_max(r, zero - r) * sbri_wide_gather_floats(sums, block->sample.slots[k] + lane);
       }
       sbri_mask is_active = sbri_wide_load(block->active + lane) > zero;
       sbri_wide_store(block->relaxation + lane,
@@ -224,8 +226,8 @@ SBRI_INLINE sbri_wide3 sbri_contact_correct(
   now.x = f.x - fraction * (v.x - n.x * speed), now.y = f.y - fraction * (v.y - n.y * speed),
   now.z = f.z - fraction * (v.z - n.z * speed);
   sbri_wide size = sbri_wide_sqrt(sbri_wide3_along(now, now)),
-            pressing =
-                sbri_wide_load(block->bound + lane) + sbri_wide_load(block->bound_slope + lane) * corrected;
+            pressing = sbri_wide_load(block->friction_bound.constant + lane) +
+                       sbri_wide_load(block->friction_bound.slope + lane) * corrected;
   sbri_wide max = sbri_wide_select(
       corrected > zero, sbri_wide_load(block->friction + lane) * sbri_wide_max(pressing, zero), zero);
   sbri_wide clamp = sbri_wide_min(max / sbri_wide_max(size, sbri_wide_all(1e-20f)), sbri_wide_all(1));
@@ -264,14 +266,14 @@ static inline void sbri_contact_correct_penetration(const sbri_island_tick *t,
   sbf_vec3 n = {block->normal[0][lane], block->normal[1][lane], block->normal[2][lane]};
   float gap = -block->offset[lane];
   for (int k = 0; k < 4; k++) {
-    const sbri_point *x = &t->positions[block->slots[k][lane]];
-    gap += block->weights[k][lane] * (n.x * x->x + n.y * x->y + n.z * x->z);
+    const sbri_point *x = &t->positions[block->sample.slots[k][lane]];
+    gap += block->sample.weights[k][lane] * (n.x * x->x + n.y * x->y + n.z * x->z);
   }
   float depth = -gap - rule->slack_m;
   depth = depth < rule->max_correction_m ? depth : rule->max_correction_m;
   for (int k = 0; depth > 0 && k < 4; k++) {
-    sbri_point *x = &t->positions[block->slots[k][lane]];
-    float displacement = block->responses[k][lane] * depth;
+    sbri_point *x = &t->positions[block->sample.slots[k][lane]];
+    float displacement = block->sample.responses[k][lane] * depth;
     x->x += displacement * n.x, x->y += displacement * n.y, x->z += displacement * n.z;
   }
 }
@@ -284,12 +286,12 @@ static inline void sbri_contact_finish(
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
     sbri_wide zero = sbri_wide_all(0), velocity_change = sbri_wide_load(block->velocity_change + lane);
     sbri_wide3 n = sbri_load_rows(block->normal, lane), f = sbri_load_rows(block->friction_impulse, lane),
-               total = sbri_load_rows(block->total_velocity_change, lane);
+               total = sbri_load_rows(block->of_tick.velocity_change, lane);
     total.x = total.x + (f.x + n.x * velocity_change), total.y = total.y + (f.y + n.y * velocity_change),
     total.z = total.z + (f.z + n.z * velocity_change);
-    sbri_store_rows(block->total_velocity_change, lane, total);
-    sbri_wide_store(block->max_velocity_change + lane,
-        sbri_wide_max(sbri_wide_load(block->max_velocity_change + lane), velocity_change));
+    sbri_store_rows(block->of_tick.velocity_change, lane, total);
+    sbri_wide_store(block->of_tick.max_velocity_change + lane,
+        sbri_wide_max(sbri_wide_load(block->of_tick.max_velocity_change + lane), velocity_change));
     sbri_wide depth = zero - sbri_wide_load(block->gap + lane) - sbri_wide_all(rule->slack_m);
     sbri_wide correction = sbri_wide_select(velocity_change > zero, depth, zero);
     sbri_wide_store(corrections + lane, correction);
@@ -318,7 +320,7 @@ static inline void sbri_contact_solve(
   if (!any) return;
   if (changed) sbri_contact_sum_rows(t, body, blocks, count);
   sbri_contact_warm_start(t, blocks, count);
-  float tolerance = rule->tolerance_m_s * rule->tolerance_m_s, square = tolerance;
+  float tolerance = SBRI_CONTACT_TOLERANCE_M_S * SBRI_CONTACT_TOLERANCE_M_S, square = tolerance;
   for (int i = 0; i < SBRI_MAX_CONTACT_ITERATIONS && square >= tolerance; i++)
     square = sbri_contact_iterate(t, blocks, count, i % 2);
   for (uint32_t b = 0; b < count; b++)

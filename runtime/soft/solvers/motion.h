@@ -31,9 +31,6 @@
 /* Penetration that is tolerated at surface samples, as a fraction of the body's size. Samples that share
  * points press each other in slightly; resolving that would shake the body. */
 #define SBRI_SLACK_FRACTION 1e-4f
-/* See sbri_contact_tolerance. */
-#define SBRI_TOLERANCE_FRACTION 0.5f
-#define SBRI_MIN_TOLERANCE_M_S 1e-3f
 
 typedef struct sbri_decay {
   float frame;         /* fraction of the velocity relative to the frame that is left after a substep */
@@ -141,18 +138,11 @@ SBRI_INLINE void sbri_kick_slots(const sbri_island_tick *t, sbri_slot_range rang
   }
 }
 
-/* Velocity change at which iterations over contacts end: a part of what gravity adds in the substep, because
- * the next substep starts from these impulses; at least SBRI_MIN_TOLERANCE_M_S. */
-static inline float sbri_contact_tolerance(const sbri_island_tick *t, float h) {
-  float tolerance = SBRI_TOLERANCE_FRACTION * h * sbri_length(t->environment.gravity);
-  return tolerance > SBRI_MIN_TOLERANCE_M_S ? tolerance : SBRI_MIN_TOLERANCE_M_S;
-}
-
 static inline sbri_contact_rule sbri_contact_rule_of(
     const sbri_island_tick *t, const sbri_body *body, float h) {
   float slack = body->contact.samples ? SBRI_SLACK_FRACTION * body->rest_size_m : 0;
   return (sbri_contact_rule){body->contact.friction, body->contact.restitution, body->contact.frictions, h,
-      SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S, sbri_contact_tolerance(t, h), t->contacts.pressing};
+      SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S, t->contacts.pressing};
 }
 
 /* x += h v for these slots, above the ground planes. */

@@ -8,6 +8,9 @@
 #include "shapes/external_body.h"
 #include "soft/solvers/pinned_impulse.h"
 
+/* Iteration continues while a velocity changes by more than this, m/s. */
+static const float CONVERGED_M_S = 1e-3f;
+
 /* A contact is skipped in the substep if it would not reach its plane even if it were this much faster, m/s.
  * Most contacts near the ground are separated, and they must not cost iterations. */
 static const float NEAR_M_S = 1;
@@ -307,8 +310,8 @@ void sbri_soft_contacts_solve(
   c.count = prepare_contacts(&c, rule);
   const int iterations = c.external_bodies ? MAX_EXTERNAL_BODY_ITERATIONS : MAX_ITERATIONS;
   apply_warm_start(&c);
-  float max = rule->tolerance_m_s;
-  for (int iteration = 0; iteration < iterations && max >= rule->tolerance_m_s; iteration++) {
+  float max = CONVERGED_M_S;
+  for (int iteration = 0; iteration < iterations && max >= CONVERGED_M_S; iteration++) {
     max = 0;
     for (uint32_t i = 0; i < c.count; i++) {
       sbri_soft_contact *contact = &c.contacts[iteration % 2 ? c.count - 1 - i : i];
@@ -337,9 +340,10 @@ static sbri_sliding sum_sliding_of_blocks(const sbri_island_tick *t, const sbri_
   const sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
   for (uint32_t b = 0; b < sbri_contact_block_count(t, body); b++)
     for (uint32_t i = 0; blocks[b].is_near && blocks[b].has_impulses && i < SBRI_BLOCK; i++) {
-      float load = blocks[b].velocity_change[i], bound = blocks[b].bound[i] + blocks[b].bound_slope[i] * load;
+      float load = blocks[b].velocity_change[i],
+            bound = blocks[b].friction_bound.constant[i] + blocks[b].friction_bound.slope[i] * load;
       if (load > 0)
-        add_sliding(&sum, blocks[b].mass_kg[i], load, blocks[b].friction[i] * (bound > 0 ? bound : 0),
+        add_sliding(&sum, blocks[b].sample.mass_kg[i], load, blocks[b].friction[i] * (bound > 0 ? bound : 0),
             sbri_vec3(blocks[b].friction_impulse[0][i], blocks[b].friction_impulse[1][i],
                 blocks[b].friction_impulse[2][i]));
     }
