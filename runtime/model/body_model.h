@@ -105,7 +105,7 @@ typedef struct sbri_body_gas {
 
 /* Preservation of the enclosed volume. */
 typedef struct sbri_body_volume {
-  bool is_kept;
+  bool is_preserved;
   const sbri_face_block *faces;           /* faces of the surface as slots; NULL: the surface is embedded */
   const uint32_t *begins;                 /* (blocks of its slots + 1) if it keeps its volume */
   const sbri_volume_cell *cells;          /* faces, as `slots`, with their weights in each slot's gradient */

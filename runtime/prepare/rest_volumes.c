@@ -24,9 +24,9 @@ bool sbri_rest_volumes_find(sbr_model *model) {
     }
     if (!good) break;
     body->surface.rest_volume_m3 = sbri_skin_volume(&body->surface.skin, vertices);
-    body->volume.is_kept = body->source->attributes.pressure_mode == SBF_PRESSURE_MODE_VOLUME &&
-                           body->surface.rest_volume_m3 > 0 && body->level;
-    if (body->volume.is_kept) good = sbri_volume_table_make(model, body);
+    body->volume.is_preserved = body->source->attributes.pressure_mode == SBF_PRESSURE_MODE_VOLUME &&
+                                body->surface.rest_volume_m3 > 0 && body->level;
+    if (body->volume.is_preserved) good = sbri_volume_table_make(model, body);
   }
   sbfi_arena_free(&scratch);
   return good;

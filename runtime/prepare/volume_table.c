@@ -1,5 +1,5 @@
 /* The faces that contribute to each slot's entry in the gradient of a body's volume:
- * soft/solvers/volume_keep.h.
+ * soft/solvers/volume_preservation.h.
  */
 #include <string.h>
 

@@ -83,7 +83,7 @@ static bool may_be_attached(const limb *of) {
 }
 
 /* Momentum is conserved except rounding, in any orientation of the flesh. */
-START_TEST(momentum_is_kept)
+START_TEST(momentum_is_conserved)
 {
   scene s = limb_of(&limbs[_i], 0);
   scene_start(&s);
@@ -184,7 +184,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("borne flesh");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, momentum_is_kept, 0, LIMBS);
+  tcase_add_loop_test(tests, momentum_is_conserved, 0, LIMBS);
   tcase_add_loop_test(tests, a_hit_does_not_increase_the_motion, 0, LIMBS);
   tcase_add_loop_test(tests, it_moves_as_with_fine_steps, 0, 4);
   tcase_add_loop_test(tests, an_undamped_soft_body_conserves_energy, 0, 8);

@@ -39,7 +39,7 @@ static void end(scene *s, host_body *b) {
 }
 
 /* Weightless: a ball of 0.1, 0.5, 1 and 27 kg strikes at 2 m/s, off the middle. */
-START_TEST(momentum_is_kept)
+START_TEST(momentum_is_conserved)
 {
   const double masses[4] = {0.1, 0.5, 1, 27};
   double mass = masses[_i / 2];
@@ -210,7 +210,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("external_body");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, momentum_is_kept, 0, 8);
+  tcase_add_loop_test(tests, momentum_is_conserved, 0, 8);
   tcase_add_loop_test(tests, dropped_bodies_come_to_rest, 0, HARNESS_FEW(12, 2));
   tcase_add_loop_test(tests, weight_presses_as_it_should, 0, HARNESS_FEW(2, 1));
   tcase_add_test(tests, bodies_on_a_floor_carry_others);

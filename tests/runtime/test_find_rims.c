@@ -90,7 +90,7 @@ START_TEST(crossing_strips_do_not_pass)
 END_TEST
 
 /* In the air: momentum is conserved. */
-START_TEST(momentum_is_kept)
+START_TEST(momentum_is_conserved)
 {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
@@ -122,7 +122,7 @@ int main(void) {
   Suite *suite = suite_create("find_rims");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, crossing_strips_do_not_pass, 0, 3);
-  tcase_add_test(tests, momentum_is_kept);
+  tcase_add_test(tests, momentum_is_conserved);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -254,7 +254,7 @@ static void moments(const sbf_vec3 *a, const sbf_vec3 *b, double linear[3], doub
   }
 }
 
-START_TEST(momentum_is_kept)
+START_TEST(momentum_is_conserved)
 {
   scene s = scene_begin();
   scene_net_of_eight(&s, 0.8f, 0.015f); /* off its rest */
@@ -502,7 +502,7 @@ static Suite *suite(void) {
   tcase_add_test(c, heun_uses_the_error_tolerance_of_the_file);
   tcase_add_test(c, heun_uses_the_step_bounds_of_the_file);
   tcase_add_loop_test(c, a_body_falls_as_at_the_origin, 0, SCHEME_COUNT);
-  tcase_add_loop_test(c, momentum_is_kept, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, momentum_is_conserved, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_hanging_chain_stretches_by_its_weight, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_chain_has_its_lowest_frequency, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_rope_hangs_as_a_catenary, 0, EXPLICIT_EULER); /* explicit Euler is unstable here */

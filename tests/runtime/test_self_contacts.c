@@ -141,7 +141,7 @@ static sbf_vec3 momentum(const scene *s, sbf_vec3 *before, uint32_t count) {
 }
 
 /* In the air, without weight: self-contacts do not move the body as a whole. */
-START_TEST(momentum_is_kept)
+START_TEST(momentum_is_conserved)
 {
   scene s = folded_strip(true, 1);
   scene_free(&s);
@@ -184,7 +184,7 @@ int main(void) {
   tcase_add_test(tests, a_folding_strip_rests_on_itself);
   tcase_add_loop_test(tests, a_folded_strip_rests, 0, 3);
   tcase_add_loop_test(tests, a_sharp_fold_comes_to_rest, 0, 3);
-  tcase_add_test(tests, momentum_is_kept);
+  tcase_add_test(tests, momentum_is_conserved);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -132,7 +132,7 @@ static float volume_of(const sbf_vec3 *p) {
   return sbri_dot(a, sbri_cross(b, c));
 }
 
-START_TEST(volume_is_kept)
+START_TEST(volume_is_preserved)
 {
   for (float along = 0.4f; along < 2; along += 0.2f) {
     sbri_squash squash = {{0.1f, 0.2f, 0.3f}, {0, 0.6f, 0.8f}, along, 1 / sqrtf(along)};
@@ -203,7 +203,7 @@ int main(void) {
   tcase_add_test(tests, only_children_of_the_bone_follow_it);
   tcase_add_test(tests, a_larger_copy_is_squashed_equally_and_a_teleported_one_is_not);
   tcase_add_test(tests, another_origin_changes_nothing);
-  tcase_add_test(tests, volume_is_kept);
+  tcase_add_test(tests, volume_is_preserved);
   tcase_add_test(tests, a_host_reads_scales_at_every_frame_rate);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

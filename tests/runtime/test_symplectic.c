@@ -123,7 +123,7 @@ static sbf_vec3 center_of_mass(scene *s) {
   return (sbf_vec3){(float)(sum[0] / mass), (float)(sum[1] / mass), (float)(sum[2] / mass)};
 }
 
-START_TEST(momentum_is_kept)
+START_TEST(momentum_is_conserved)
 {
   scene s = scene_begin();
   scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
@@ -289,7 +289,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_scaled_spring_swings_slower_by_the_root);
   tcase_add_test(c, energy_does_not_drift);
   tcase_add_test(c, a_free_body_falls_as_it_should);
-  tcase_add_test(c, momentum_is_kept);
+  tcase_add_test(c, momentum_is_conserved);
   tcase_add_test(c, a_pendulum_keeps_its_period);
   tcase_add_test(c, a_hanging_chain_stretches_by_its_weight);
   tcase_add_test(c, a_pendulum_chain_swings_without_gain);

@@ -191,7 +191,7 @@ START_TEST(a_beam_swings_near_its_lowest_frequency)
 }
 END_TEST
 
-START_TEST(momentum_is_kept)
+START_TEST(momentum_is_conserved)
 {
   begin(5, 1e5f, 0.4f, false, (sbf_vec3){0, 0, 0});
   scene_start(&s);
@@ -304,7 +304,7 @@ int main(void) {
   tcase_add_test(c, bodies_at_rest_stay);
   tcase_add_loop_test(c, a_beam_rests_near_its_static_deflection, 0, 4);
   tcase_add_test(c, a_beam_swings_near_its_lowest_frequency);
-  tcase_add_test(c, momentum_is_kept);
+  tcase_add_test(c, momentum_is_conserved);
   tcase_add_test(c, far_from_the_world_s_origin_as_near);
   tcase_add_test(c, its_damping_removes_energy);
   tcase_add_loop_test(c, bad_starts_recover, 0, 4);

@@ -27,7 +27,7 @@ static void shake(scene *s, double *low, double *high) {
   }
 }
 
-START_TEST(the_volume_is_kept_on_request)
+START_TEST(the_volume_is_preserved_on_request)
 {
   double low, high;
   scene plain = section(SBF_PRESSURE_MODE_NONE), kept = section(SBF_PRESSURE_MODE_VOLUME);
@@ -139,7 +139,7 @@ START_TEST(embedded_surfaces_keep_their_volume)
   embedding->weights = (sbf_vec4_list){weights, vertex_count};
   level->embeddings = (sbf_embedding_list){embedding, 1};
   scene_start(&s);
-  ck_assert(s.model->bodies[0].volume.is_kept);
+  ck_assert(s.model->bodies[0].volume.is_preserved);
   ck_assert_ptr_null(s.model->bodies[0].volume.faces);
   double low, high;
   shake(&s, &low, &high);
@@ -152,7 +152,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("volume table");
   TCase *c = tcase_create("volume table");
-  tcase_add_test(c, the_volume_is_kept_on_request);
+  tcase_add_test(c, the_volume_is_preserved_on_request);
   tcase_add_test(c, keeping_it_moves_no_body);
   tcase_add_test(c, a_large_volume_error_is_corrected_slowly);
   tcase_add_test(c, embedded_surfaces_keep_their_volume);

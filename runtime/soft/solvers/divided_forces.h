@@ -18,7 +18,7 @@
 static inline bool sbri_are_forces_divided(const sbri_island_tick *t) {
   bool divided = t->tasks && t->island->tetrahedra.parts && !t->reactions;
   for (uint32_t b = 0; divided && b < t->island->body_count; b++) /* keeping a volume uses element_forces */
-    divided = !t->model->bodies[t->island->bodies[b]].volume.is_kept;
+    divided = !t->model->bodies[t->island->bodies[b]].volume.is_preserved;
   return divided;
 }
 

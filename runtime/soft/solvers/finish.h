@@ -11,7 +11,7 @@
 #include "soft/solvers/soft_contacts.h"
 #include "soft/solvers/solid_limits.h"
 #include "soft/solvers/strain_limit.h"
-#include "soft/solvers/volume_keep.h"
+#include "soft/solvers/volume_preservation.h"
 
 /* Alternates compression limits and ground contacts, because each undoes a little of the other. */
 static inline void sbri_limit_compression_above_ground(const sbri_island_tick *t, float h) {
@@ -27,7 +27,7 @@ static inline void sbri_limit_compression_above_ground(const sbri_island_tick *t
 
 static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   for (uint32_t b = 0; b < t->island->body_count; b++)
-    if (t->model->bodies[t->island->bodies[b]].volume.is_kept)
+    if (t->model->bodies[t->island->bodies[b]].volume.is_preserved)
       sbri_volume_preserve(t, &t->model->bodies[t->island->bodies[b]], h);
   if (t->island->links.limits) sbri_limit_strains(t);
   if (t->springs.rests) sbri_yield_and_tear(t, h);

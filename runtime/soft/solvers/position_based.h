@@ -202,7 +202,7 @@ static inline bool sbri_moves_alone(const sbri_island_tick *t) {
                !sbri_is_compressed(t);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
-    alone = alone && !body->volume.is_kept && (body->is_pinned || !(body->damping.alpha_1_s > 0)) &&
+    alone = alone && !body->volume.is_preserved && (body->is_pinned || !(body->damping.alpha_1_s > 0)) &&
             !sbri_has_impulses(t, body);
   }
   for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
@@ -262,7 +262,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
   float h = t->tick_s / (float)substeps, stretches[SBRI_BLOCK] = {0};
   bool followed = island->links.limits || island->tetrahedra.limits;
   for (uint32_t b = 0; b < island->body_count; b++)
-    followed = followed || t->model->bodies[island->bodies[b]].volume.is_kept;
+    followed = followed || t->model->bodies[island->bodies[b]].volume.is_preserved;
   sbri_moves_begin(t);
   sbri_mark_all_compressed(t);
   bool solid = island->tetrahedra.block_count > 0, alone = sbri_moves_alone(t);

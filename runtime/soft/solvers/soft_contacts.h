@@ -35,8 +35,8 @@ void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body
 void sbri_soft_contacts_report(
     const sbri_island_tick *t, const sbri_body *body, sbri_contact_reports *touching);
 
-/* Call before and after a position correction that changes velocities (soft/solvers/volume_keep.h). Undoes
- * penetration that the correction has caused, as sbri_contact_bound does for points. */
+/* Call before and after a position correction that changes velocities (soft/solvers/volume_preservation.h).
+ * Undoes penetration that the correction has caused, as sbri_contact_bound does for points. */
 void sbri_soft_contacts_store(const sbri_island_tick *t, const sbri_body *body);
 void sbri_soft_contacts_bound(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule);

@@ -19,8 +19,8 @@
  * substep instead of its beginning, which is of first order in h.
  *
  * Written for the lanes of the including file; see model/kernels.h. */
-#ifndef SBRI_VOLUME_KEEP_H
-#define SBRI_VOLUME_KEEP_H
+#ifndef SBRI_VOLUME_PRESERVATION_H
+#define SBRI_VOLUME_PRESERVATION_H
 
 #include "math/lane_sums.h"
 #include "skin/skin_lanes.h"
