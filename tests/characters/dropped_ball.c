@@ -72,8 +72,8 @@ void dropped_ball_check(const dropped_ball *ball) {
     ck_assert_msg(energy_of(&health) <= max, "%s, tick %d: %g of %g J", name, i, energy_of(&health), max);
   }
   /* An impact at v strains what it meets by v / c: faster than sound it can fold elements past recovery, as
-   * in the falls of flesh from 1 m at 1.02 c, of which one of thirty stays in a knot (25 mm, nu = 0.3) and is
-   * put back. */
+   * in the falls of soft tissue from 1 m at 1.02 c, of which one of thirty stays in a knot (25 mm, nu = 0.3)
+   * and is put back. */
   ck_assert_msg(health.recoveries <= (speed > sound), "%s: %u recoveries", name, health.recoveries);
   double off = fabs((double)health.volume_ratio - 1), by_weight = density * 9.81 * 2 * radius / bulk;
   ck_assert_msg(off <= 0.05 + by_weight, "%s: volume %g", name, (double)health.volume_ratio);

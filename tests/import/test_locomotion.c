@@ -410,7 +410,7 @@ START_TEST(a_backbone_follows_the_hierarchy)
 }
 END_TEST
 
-/* Water carries a swimmer's flesh; nothing carries a snake's. */
+/* Water carries a swimmer's soft tissue; nothing carries a snake's. */
 START_TEST(water_carries_soft_parts)
 {
   static const char *const files[] = {"examples/koi/koi.glb", "examples/snake/snake.glb"};

@@ -1,4 +1,4 @@
-/* Stiff flesh on a light bone. A stable explicit step would be tiny for the whole group. */
+/* Stiff soft tissue on a light bone. A stable explicit step would be tiny for the whole group. */
 #include <math.h>
 
 #include "harness.h"
@@ -8,12 +8,12 @@
 #include "state/world.h"
 
 enum { ACROSS = 5, HIGH = 3, DEEP = 3, POINTS = ACROSS * HIGH * DEEP };
-/* Of the bone with the flesh; the other is its parent. */
+/* Of the bone with the soft tissue; the other is its parent. */
 enum { TRUNK, LIMB };
 
 typedef struct limb {
   bool springs; /* else tetrahedra */
-  float flesh_kg, bone_kg, damping_ratio;
+  float soft_kg, bone_kg, damping_ratio;
 } limb;
 
 static const limb limbs[] = {{false, 0.4f, 0.3f, 0.2f}, {true, 0.4f, 0.3f, 0.2f}, {false, 0.4f, 0.3f, 0},
@@ -36,7 +36,8 @@ static void spring_all(scene *s, sbf_level *level, const sbf_vec3 *at, float sti
   scene_springs(s, level, ends, k, count);
 }
 
-/* A block of flesh on one side of a bone, which a ball joint holds to a trunk of 2 kg, far from everything.
+/* A block of soft tissue on one side of a bone, which a ball joint holds to a trunk of 2 kg, far from
+ * everything.
  */
 static scene limb_of(const limb *of, float gravity) {
   scene s = rigid_begin();
@@ -46,11 +47,11 @@ static scene limb_of(const limb *of, float gravity) {
   rigid_box(&s, (sbf_vec3){0.2f, 0, 0}, (sbf_vec3){0.16f, 0.06f, 0.06f}, of->bone_kg);
   rigid_joint(&s, SBF_JOINT_KIND_SPHERICAL, TRUNK, LIMB, (sbf_vec3){0.11f, 0, 0}, rigid_along_x);
   lattice_box box = lattice_box_make((sbf_vec3){0.12f, 0.03f, -0.04f}, (sbf_vec3){0.16f, 0.08f, 0.08f},
-      ACROSS - 1, HIGH - 1, DEEP - 1, of->flesh_kg / 1.024e-3f, 6e4f, 0.3f);
+      ACROSS - 1, HIGH - 1, DEEP - 1, of->soft_kg / 1.024e-3f, 6e4f, 0.3f);
   sbf_level *level;
   if (of->springs) {
     float masses[POINTS];
-    for (uint32_t i = 0; i < POINTS; i++) masses[i] = of->flesh_kg / POINTS;
+    for (uint32_t i = 0; i < POINTS; i++) masses[i] = of->soft_kg / POINTS;
     level = scene_points(&s, 0, box.positions, masses, POINTS);
     spring_all(&s, level, box.positions, 4000);
   } else
@@ -77,12 +78,12 @@ static bool is_attached(const scene *s) {
   return sbri_attached_loads(sbri_character_of(s->world, s->character))[LIMB].is_attached;
 }
 
-/* Flesh with almost no damping could gain energy, so it is not attached. */
+/* Soft tissue with almost no damping could gain energy, so it is not attached. */
 static bool may_be_attached(const limb *of) {
   return of->damping_ratio >= 0.03f;
 }
 
-/* Momentum is conserved except rounding, in any orientation of the flesh. */
+/* Momentum is conserved except rounding, in any orientation of the soft tissue. */
 START_TEST(momentum_is_conserved)
 {
   scene s = limb_of(&limbs[_i], 0);
@@ -158,7 +159,7 @@ static float separation(sbf_vec3 a, sbf_vec3 b) {
 }
 
 /* Compared with as many steps as the stiffest body needs, and a quarter of the requested steps in flight:
- * bones and flesh follow the same path. */
+ * bones and soft tissue follow the same path. */
 START_TEST(it_moves_as_with_fine_steps)
 {
   scene s = limb_of(&limbs[_i], -9.81f), fine = limb_of(&limbs[_i], -9.81f);
@@ -171,10 +172,10 @@ START_TEST(it_moves_as_with_fine_steps)
     sbr_world_tick(s.world);
     sbr_world_tick(fine.world);
     ck_assert(is_attached(&s) == may_be_attached(&limbs[_i]) && !is_attached(&fine));
-    float bone = separation(rigid_state(&s, LIMB).center, rigid_state(&fine, LIMB).center), flesh = 0;
+    float bone = separation(rigid_state(&s, LIMB).center, rigid_state(&fine, LIMB).center), soft = 0;
     for (uint32_t i = 0; i < POINTS; i++)
-      flesh = fmaxf(flesh, separation(scene_point(&s, 0, i), scene_point(&fine, 0, i)));
-    ck_assert_msg(bone < 6e-3f && flesh < 12e-3f, "tick %d: %g, %g m", t, (double)bone, (double)flesh);
+      soft = fmaxf(soft, separation(scene_point(&s, 0, i), scene_point(&fine, 0, i)));
+    ck_assert_msg(bone < 6e-3f && soft < 12e-3f, "tick %d: %g, %g m", t, (double)bone, (double)soft);
   }
   scene_free(&s);
   scene_free(&fine);
@@ -182,7 +183,7 @@ START_TEST(it_moves_as_with_fine_steps)
 END_TEST
 
 int main(void) {
-  Suite *suite = suite_create("borne flesh");
+  Suite *suite = suite_create("attached soft bodies");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, momentum_is_conserved, 0, LIMBS);
   tcase_add_loop_test(tests, a_hit_does_not_increase_the_motion, 0, LIMBS);

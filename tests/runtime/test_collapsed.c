@@ -5,10 +5,10 @@
 
 enum { CLOSING = 120, SHUT = 180, REGAINED = SHUT + 16, LANDING = SHUT + 31, END = 330 };
 
-/* A press lowers onto a block of flesh to a fraction of its height, stays for a second and rises. A pressed
- * body is not collapsed: it is not put back into its rest shape, which would overlap the press, and it lies
- * still. After release it recovers its shape within a quarter of a second and jumps. Landing compresses it
- * again. */
+/* A press lowers onto a block of soft tissue to a fraction of its height, stays for a second and rises. A
+ * pressed body is not collapsed: it is not put back into its rest shape, which would overlap the press, and
+ * it lies still. After release it recovers its shape within a quarter of a second and jumps. Landing
+ * compresses it again. */
 START_TEST(bodies_pressed_flat_are_not_reset)
 {
   const double height = 0.4, fraction = _i ? 0.05 : 0.3;

@@ -12,7 +12,7 @@
 static const sbf_vec3 inner_low = {-0.16f, 0.04f, -0.16f}, inner_size = {0.32f, 0.32f, 0.32f};
 
 /* A box of 0.4 m on the ground, `cells` quads along each edge, carried by the smaller lattice within it. */
-static scene carried_box(uint32_t cells, sbf_pressure_mode pressure) {
+static scene embedded_box(uint32_t cells, sbf_pressure_mode pressure) {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 0, 0});
   sbf_soft_body *body = scene_body(&s, 0);
@@ -33,7 +33,7 @@ static const sbri_body *body_of(const scene *s) {
 
 START_TEST(all_points_of_polygons_are_sampled)
 {
-  scene s = carried_box(4, SBF_PRESSURE_MODE_NONE);
+  scene s = embedded_box(4, SBF_PRESSURE_MODE_NONE);
   sbf_soft_body *body = scene_body(&s, 0);
   uint32_t count = body->surface.positions.count;
   body->surface.polygon_sizes.count--; /* a face less: all its corners have others */
@@ -63,7 +63,7 @@ END_TEST
 /* With one quad a side, no point of the surface lies between the corners: points of the level must. */
 START_TEST(faces_larger_than_the_elements_are_supported_by_points_of_the_level)
 {
-  scene s = carried_box(1, SBF_PRESSURE_MODE_NONE);
+  scene s = embedded_box(1, SBF_PRESSURE_MODE_NONE);
   scene_start(&s);
   ck_assert_uint_eq(
       body_of(&s)->contact.sample_count, 8 + 3 * 3 * 3 - 1); /* all but the middle: 40 mm within */
@@ -130,7 +130,7 @@ static void solve(const sbri_island_tick *tick, const sbri_body *body, const sbr
 
 START_TEST(a_contact_impulse_acts_at_its_sample)
 {
-  scene s = carried_box(2, SBF_PRESSURE_MODE_NONE);
+  scene s = embedded_box(2, SBF_PRESSURE_MODE_NONE);
   scene_body(&s, 0)->attributes.friction = 0.2f;
   scene_start(&s);
   sbri_character *c = sbri_character_of(s.world, s.character);
@@ -221,7 +221,7 @@ static fall fall_of(scene *s) {
 
 START_TEST(a_surface_beyond_its_lattice_stays_above_the_ground)
 {
-  scene s = carried_box(3, pressures[_i % 2]);
+  scene s = embedded_box(3, pressures[_i % 2]);
   s.character_definition.position.y = 1;
   s.model_options.scheme = schemes[_i / 2];
   if (s.model_options.scheme == SBF_SCHEME_EXPLICIT_EULER)
@@ -241,7 +241,7 @@ END_TEST
 /* Springs between the corners of a box within carry the surface: position-based steps too. */
 START_TEST(position_based_steps_apply_samples)
 {
-  scene s = carried_box(2, SBF_PRESSURE_MODE_NONE);
+  scene s = embedded_box(2, SBF_PRESSURE_MODE_NONE);
   sbf_vec3 positions[8];
   float masses[8], stiffness[28];
   sbf_uint2 ends[28];
@@ -294,7 +294,7 @@ static uint32_t contact_count(const scene *s) {
 /* Nine points of the lattice support 289 vertices of the lower face. */
 START_TEST(resting_points_keep_few_contacts_and_impacts_keep_all)
 {
-  scene s = carried_box(16, SBF_PRESSURE_MODE_NONE);
+  scene s = embedded_box(16, SBF_PRESSURE_MODE_NONE);
   s.world_definition.sleep_after_s = 0;
   scene_body(&s, 0)->attributes.damping_ratio = 0.5f;
   s.character_definition.position.y = 0.3;

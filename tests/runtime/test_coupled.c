@@ -18,7 +18,7 @@ static scene weightless(void) {
   return s;
 }
 
-/* A block of flesh of that mass; each end is pinned to a box. */
+/* A block of soft tissue of that mass; each end is pinned to a box. */
 static scene dumbbell(float soft_kg, float rigid_kg, float damping_ratio) {
   scene s = weightless();
   lattice_box box = lattice_box_make(
@@ -64,9 +64,9 @@ START_TEST(a_hit_conserves_momentum)
 }
 END_TEST
 
-/* Undamped, with the impulse above and with ten times that: about 20 m/s, faster than sound in such flesh.
- * Compressed elements and the speed limit take energy. Neither may treat the bones as infinitely heavy, or
- * the motion would gain energy. */
+/* Undamped, with the impulse above and with ten times that: about 20 m/s, faster than sound in such soft
+ * tissue. Compressed elements and the speed limit take energy. Neither may treat the bones as infinitely
+ * heavy, or the motion would gain energy. */
 static const struct {
   float soft_kg, rigid_kg, times;
   int ticks;
@@ -204,8 +204,8 @@ START_TEST(both_ends_of_a_spring_swing)
 }
 END_TEST
 
-/* A load on a column of flesh whose lower end is fixed: compressed by (load + half its own weight) L / (E
- * A). */
+/* A load on a column of soft tissue whose lower end is fixed: compressed by (load + half its own weight) L /
+ * (E A). */
 START_TEST(a_load_presses_a_column)
 {
   static const float loads[3] = {0.05f, 1, 10};
@@ -239,8 +239,8 @@ END_TEST
 
 /* ---- Weight ---- */
 
-/* A heavy block of flesh under a light bone on a ball joint, and a light block under a heavy bone. The joint
- * stays connected in both, and the swing continues as a pendulum almost without energy loss. */
+/* A heavy block of soft tissue under a light bone on a ball joint, and a light block under a heavy bone. The
+ * joint stays connected in both, and the swing continues as a pendulum almost without energy loss. */
 static const struct { float soft_kg, rigid_kg; } hung[] = {{50, 0.05f}, {5, 0.05f}, {1, 1}, {0.01f, 10}};
 
 START_TEST(a_soft_body_is_attached_to_a_joint)
@@ -345,7 +345,7 @@ START_TEST(the_same_bits_on_any_threads)
 }
 END_TEST
 
-/* Flesh and bones fall asleep in the same tick, and wake in the same tick. */
+/* Soft tissue and bones fall asleep in the same tick, and wake in the same tick. */
 START_TEST(coupled_bodies_sleep_together)
 {
   scene s = on_the_ground();

@@ -11,7 +11,7 @@ typedef struct drop_result {
 
 static sbf_vec3 before[512], after[512];
 
-/* A box of flesh with `cells` quads along each edge, free, for five seconds. */
+/* A box of soft tissue with `cells` quads along each edge, free, for five seconds. */
 static drop_result drop(sbf_scheme scheme, sbf_vec3 size, uint32_t cells) {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 1, 0});

@@ -1,4 +1,5 @@
-/* Bodies of a host that flesh moves within the tick: they come to rest on it, and momentum is conserved. */
+/* Bodies of a host that soft tissue moves within the tick: they come to rest on it, and momentum is
+ * conserved. */
 #include "shapes/external_body.h"
 
 #include <math.h>
@@ -13,9 +14,9 @@ static const double G = 9.81;
 /* Bare points keep their radius as distance in contacts. */
 static const float KEPT_M = 0.01f;
 
-enum flesh { CUBE, MATTRESS }; /* 30 cm and 27 kg; 80 x 20 x 80 cm and 20 kg */
+enum soft_kind { CUBE, MATTRESS }; /* 30 cm and 27 kg; 80 x 20 x 80 cm and 20 kg */
 
-static void add_attached(scene *s, uint32_t body, enum flesh kind, float x, float young_pa) {
+static void add_attached(scene *s, uint32_t body, enum soft_kind kind, float x, float young_pa) {
   lattice_box box = kind == MATTRESS ? lattice_box_make((sbf_vec3){x - 0.4f, 0, -0.4f},
                                            (sbf_vec3){0.8f, 0.2f, 0.8f}, 12, 3, 12, 160, young_pa, 0)
                                      : lattice_box_make((sbf_vec3){x - 0.15f, 0, -0.15f},
@@ -26,7 +27,7 @@ static void add_attached(scene *s, uint32_t body, enum flesh kind, float x, floa
   scene_body(s, body)->attributes.stiffness_damping = 0.01f;
 }
 
-static scene flesh_begin(void) {
+static scene soft_scene_begin(void) {
   scene s = scene_begin();
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
@@ -43,8 +44,8 @@ START_TEST(momentum_is_conserved)
 {
   const double masses[4] = {0.1, 0.5, 1, 27};
   double mass = masses[_i / 2];
-  enum flesh kind = _i % 2 ? MATTRESS : CUBE;
-  scene s = flesh_begin();
+  enum soft_kind kind = _i % 2 ? MATTRESS : CUBE;
+  scene s = soft_scene_begin();
   add_attached(&s, 0, kind, 0, 20000);
   s.world_definition.ground = sbr_ground_flat(-1000);
   s.character_definition.position.y = 1000; /* above the ground */
@@ -73,8 +74,8 @@ START_TEST(dropped_bodies_come_to_rest)
 {
   const double masses[6] = {0.027, 0.1, 0.5, 1, 5, 27};
   double mass = masses[_i / 2];
-  enum flesh kind = _i % 2 ? MATTRESS : CUBE;
-  scene s = flesh_begin();
+  enum soft_kind kind = _i % 2 ? MATTRESS : CUBE;
+  scene s = soft_scene_begin();
   add_attached(&s, 0, kind, 0, mass < 2 ? 20000 : 100000);
   scene_start(&s);
   scene_ticks(&s, 60);
@@ -95,7 +96,7 @@ START_TEST(weight_presses_as_it_should)
 {
   float scale = _i ? 2 : 1;
   double mass = 100.0 * (double)(scale * scale * scale), height = 0.2 * (double)scale;
-  scene s = flesh_begin();
+  scene s = soft_scene_begin();
   add_attached(&s, 0, MATTRESS, 0, 50000);
   s.character_definition.scale = scale;
   scene_start(&s);
@@ -115,7 +116,7 @@ END_TEST
 /* A light crate on the host's floor supports the cube. A free crate would move away. */
 START_TEST(bodies_on_a_floor_carry_others)
 {
-  scene s = flesh_begin();
+  scene s = soft_scene_begin();
   add_attached(&s, 0, CUBE, 0, 50000);
   s.world_definition.ground = sbr_ground_flat(-1000);
   s.character_definition.position.y = 1000.25;
@@ -138,7 +139,7 @@ END_TEST
 START_TEST(several_bodies_carry_it_together)
 {
   const sbf_vec3 arms[HOST_BODY_PARTS] = {{-0.3f, 0, 0}, {0.3f, 0, 0}};
-  scene s = flesh_begin();
+  scene s = soft_scene_begin();
   scene_bodies(&s, 2);
   add_attached(&s, 0, CUBE, -0.3f, 20000);
   add_attached(&s, 1, CUBE, 0.3f, 20000);
@@ -159,7 +160,7 @@ END_TEST
 /* Without an update for some ticks it continues its motion, and falls. */
 START_TEST(without_new_commands_it_continues)
 {
-  scene s = flesh_begin();
+  scene s = soft_scene_begin();
   add_attached(&s, 0, CUBE, 0, 20000);
   scene_start(&s);
   host_body b = host_body_make(&s, collision_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 5, 0});
@@ -175,7 +176,7 @@ END_TEST
 
 START_TEST(bad_ones_are_refused)
 {
-  scene s = flesh_begin();
+  scene s = soft_scene_begin();
   add_attached(&s, 0, CUBE, 0, 20000);
   scene_start(&s);
   sbr_shape *shape = collision_shape(collision_ball(0.1f));

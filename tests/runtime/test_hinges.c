@@ -97,8 +97,8 @@ START_TEST(cloth_does_not_fall_through_honey)
 }
 END_TEST
 
-/* Without weight: the pinned edge is lifted by 0.4 m in a sixth of a second, the free edge lags behind. Flesh
- * follows its bone where its strain would become too large; a sheet may bend freely. */
+/* Without weight: the pinned edge is lifted by 0.4 m in a sixth of a second, the free edge lags behind. Soft
+ * tissue follows its bone where its strain would become too large; a sheet may bend freely. */
 START_TEST(cloth_stays_behind_its_bone)
 {
   static const float times[2] = {0, 1 / 6.0f}, values[6] = {0, 0, 0, 0, 0.4f, 0};

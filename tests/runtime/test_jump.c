@@ -139,7 +139,7 @@ START_TEST(crushed_bodies_are_reported)
 }
 END_TEST
 
-/* Flesh that falls so fast that it inverts recovers, though its weight alone could strain it by as much
+/* Soft tissue that falls so fast that it inverts recovers, though its weight alone could strain it by as much
  * energy. In flight it stayed compressed for seconds. */
 START_TEST(bodies_crushed_by_a_fall_recover)
 {

@@ -8,7 +8,7 @@
 #include "shapes.h"
 #include "skin_depth.h"
 
-/* A cube of flesh that stands on y = 0; its skin is finer than its lattice. */
+/* A cube of soft tissue that stands on y = 0; its skin is finer than its lattice. */
 enum { CELLS = 5, SQUARES = 6, MAX = 6 * SQUARES * SQUARES + 2 };
 static const float SIDE = 0.3f;
 
@@ -81,7 +81,7 @@ START_TEST(fast_bodies_penetrate_no_deeper_than_the_face_search)
 }
 END_TEST
 
-/* Flesh that recovers its shape at once does not throw the upper one off. */
+/* Soft tissue that recovers its shape at once does not throw the upper one off. */
 START_TEST(cubes_that_fall_on_each_other_stand)
 {
   sbr_character_id upper;

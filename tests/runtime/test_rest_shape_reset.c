@@ -11,7 +11,7 @@
 
 static const float BOX_KG[2] = {0.5f, 2};
 
-/* A block of flesh of that mass that hangs on a box at each end, or on one alone. */
+/* A block of soft tissue of that mass that hangs on a box at each end, or on one alone. */
 static scene block(float soft_kg, uint32_t ends) {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
@@ -53,8 +53,8 @@ static const struct {
   uint32_t ends;
 } blocks[] = {{1, 1}, {1, 2}, {50, 2}, {0.05f, 2}};
 
-/* A pile of flesh whose points move at some metres per second is put back. Momentum and angular momentum of
- * bones and flesh are conserved, and energy does not rise. */
+/* A pile of soft tissue whose points move at some metres per second is put back. Momentum and angular
+ * momentum of bones and soft tissue are conserved, and energy does not rise. */
 START_TEST(a_reset_keeps_the_momentum)
 {
   uint32_t ends = blocks[_i].ends;

@@ -146,7 +146,7 @@ START_TEST(a_zero_drive_fraction_gives_a_ragdoll)
 }
 END_TEST
 
-/* A thousandth of the drive has almost no effect; the flesh about the joint damps as much. */
+/* A thousandth of the drive has almost no effect; the soft tissue about the joint damps as much. */
 START_TEST(a_small_drive_fraction_is_nearly_a_ragdoll)
 {
   static const float fractions[ARMS] = {0, 0.001f, 0.01f};

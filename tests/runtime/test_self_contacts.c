@@ -90,7 +90,7 @@ END_TEST
 
 /* It also rests there: no point of the leg jumps or creeps. (The rows of the fold continue to swing like
  * pendulums, because nothing damps them here.) */
-START_TEST(a_folded_strip_rests)
+START_TEST(a_bent_strip_rests)
 {
   const float frictions[3] = {1, 0.3f, 0.1f};
   enum { FIRST = 30 * WIDE };
@@ -182,7 +182,7 @@ int main(void) {
   Suite *suite = suite_create("self_touch");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_folding_strip_rests_on_itself);
-  tcase_add_loop_test(tests, a_folded_strip_rests, 0, 3);
+  tcase_add_loop_test(tests, a_bent_strip_rests, 0, 3);
   tcase_add_loop_test(tests, a_sharp_fold_comes_to_rest, 0, 3);
   tcase_add_test(tests, momentum_is_conserved);
   suite_add_tcase(suite, tests);

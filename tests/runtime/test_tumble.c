@@ -206,8 +206,8 @@ START_TEST(tipping_bodies_do_not_fall_asleep)
 }
 END_TEST
 
-/* A passive leg without friction sleeps within 4 s, near its hanging position. Its flesh alone takes longer.
- * An impulse wakes it. */
+/* A passive leg without friction sleeps within 4 s, near its hanging position. Its soft tissue alone takes
+ * longer. An impulse wakes it. */
 START_TEST(bodies_fall_asleep_after_swinging)
 {
   scene s = person();

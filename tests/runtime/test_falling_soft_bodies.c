@@ -1,4 +1,4 @@
-/* Flesh on bones in free fall: it is weightless, and has its rest shape. */
+/* Soft tissue on bones in free fall: it is weightless, and has its rest shape. */
 #include <math.h>
 
 #include "harness.h"
@@ -7,7 +7,7 @@
 
 enum { TRUNK, LIMB };
 
-/* Of flesh along a limb, so many cells high and deep. */
+/* Of soft tissue along a limb, so many cells high and deep. */
 static sbf_level level_of(scene *s, uint32_t cells) {
   lattice_box box = lattice_box_make((sbf_vec3){0.12f, 0.03f, -0.04f}, (sbf_vec3){0.16f, 0.08f, 0.08f},
       2 * cells, cells, cells, 400, 6e4f, 0.3f);
@@ -56,7 +56,7 @@ static const struct {
     {0.2f, 0, 1, 0, SBF_SCHEME_HEUN, 64},
 };
 
-/* It was off by 1 to 6 mm, and the flesh's pull rotated the bone. */
+/* It was off by 1 to 6 mm, and the soft tissue's pull rotated the bone. */
 START_TEST(it_keeps_its_shape)
 {
   enum { MAX = 256 };
@@ -92,7 +92,7 @@ START_TEST(it_keeps_its_shape)
 END_TEST
 
 int main(void) {
-  Suite *suite = suite_create("falling flesh");
+  Suite *suite = suite_create("falling soft bodies");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, it_keeps_its_shape, 0, sizeof falls / sizeof *falls);
   suite_add_tcase(suite, tests);
