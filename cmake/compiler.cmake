@@ -62,6 +62,13 @@ function(sbfmt_program name)
     # Files are those of Node.js.
     target_link_options(${name} PRIVATE -sNODERAWFS=1 -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sEXIT_RUNTIME=1 -sTOTAL_STACK=8MB -fexceptions
       --pre-js=${PROJECT_SOURCE_DIR}/tools/node/program_head.js)
+  elseif(SBFMT_STATIC_LIBRARIES) # some of them are C++
+    set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
+    target_link_options(${name} PRIVATE -static-libgcc -static-libstdc++)
+  endif()
+  if(WIN32)
+    target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tools/windows/program.rc ${PROJECT_SOURCE_DIR}/tools/windows/binary_streams.c)
+    target_link_options(${name} PRIVATE -Wl,--stack,8388608)
   endif()
 endfunction()
 

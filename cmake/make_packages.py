@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Makes all packages for users from built trees, and lists their SHA-256 in SHA256SUMS.
 
-Usage: make_packages.py --static DIR [--shared DIR] [--self-contained DIR] [--node DIR] --out DIR [NAME...]
+Usage: make_packages.py --static DIR [--shared DIR] [--self-contained DIR] [--node DIR] [--windows DIR] --out DIR [NAME...]
 
     debian    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   from the tree of shared libraries (needs dpkg-shlibdeps and file)
     tarball   sbfmt-VERSION-SYSTEM.tar.gz         relocatable: static libraries, headers, CMake package, pkg-config files, the program
+    linux     sbfmt-program-VERSION-SYSTEM.tar.gz the program for any Linux, from the tree of self-contained libraries
+    windows   sbfmt-VERSION-windows-x86_64.zip    the program, and the SDK as a DLL with headers and CMake package, from the tree of --windows
     npm       sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (needs clang, lld, wasi-libc and npm)
     program   sbfmt-cli-VERSION.tgz               the program as WebAssembly for Node.js, from the tree of --node
     studio    sbfmt-studio-VERSION.zip            the page where a mesh becomes a character, from the trees of --static and --node
-    blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library; from the tree of self-contained libraries if
-                                                  there is one: then it needs only the system's C library
+    blender   sbfmt-blender-VERSION.zip           the add-on for Blender, with its libraries; from the tree of self-contained libraries if
+                                                  there is one: then it needs only the system's C library. Else for this SYSTEM alone
     godot     sbfmt-godot-VERSION-SYSTEM.zip      addons/sbfmt for a Godot project (needs Godot 4.6)
 
 Makes the named packages, or all if none is named. Prints a table of the packages, with the reason if one was not made; then the exit
@@ -87,8 +89,8 @@ def write_zip(folder, out):
 class Packages:
     """One method per package. Each writes files to `out`, or returns the reason why it cannot."""
 
-    def __init__(self, static, shared, self_contained, node, out):
-        self.static, self.shared, self.self_contained, self.node, self.out = static, shared, self_contained, node, out
+    def __init__(self, static, shared, self_contained, node, windows, out):
+        self.static, self.shared, self.self_contained, self.node, self.windows_tree, self.out = static, shared, self_contained, node, windows, out
         cache = cache_of(static)
         if cache.get("BUILD_SHARED_LIBS") == "ON":
             sys.exit(f"{static} is a tree of shared libraries; --static wants one without BUILD_SHARED_LIBS")
@@ -124,6 +126,35 @@ class Packages:
             write_tar(scratch, os.path.basename(out)[:-len(".tar.gz")], out)
         return None
 
+    def linux(self):
+        if not self.self_contained or not has_target(self.self_contained, "sbfmt"):
+            return "the libraries that a program for any Linux is linked with were not built"
+        with tempfile.TemporaryDirectory() as scratch:
+            run("cmake", "--install", self.self_contained, "--strip", "--component", "tools", "--prefix", scratch)
+            shutil.copytree(os.path.join(self.static, "web"), os.path.join(scratch, "share", "sbfmt", "web"), dirs_exist_ok=True)
+            self.add_licences(self.self_contained, scratch)
+            out = self.path("program", ".tar.gz")
+            write_tar(scratch, os.path.basename(out)[:-len(".tar.gz")], out)
+        return None
+
+    def windows(self):
+        if not self.windows_tree:
+            return "no tree for Windows was named: ./run package windows makes one where Debian's mingw-w64 is"
+        with tempfile.TemporaryDirectory() as scratch:
+            out = os.path.join(self.out, f"sbfmt-{self.version}-windows-x86_64.zip")
+            inside = os.path.join(scratch, os.path.basename(out)[:-len(".zip")])
+            for component in ("tools", "sdk"):
+                run("cmake", "--install", self.windows_tree, "--strip", "--component", component, "--prefix", inside)
+            shutil.copytree(os.path.join(self.static, "web"), os.path.join(inside, "share", "sbfmt", "web"), dirs_exist_ok=True)
+            self.add_licences(self.windows_tree, inside)
+            write_zip(scratch, out)
+        return None
+
+    def add_licences(self, tree, folder):
+        """Of this project, and of the libraries that are linked into its programs."""
+        shutil.copytree(os.path.join(cache_of(tree)["SBFMT_STATIC_LIBRARIES"], "licences"), os.path.join(folder, "licences"))
+        shutil.copyfile(os.path.join(HERE, "..", "LICENSE"), os.path.join(folder, "licences", "sbfmt.txt"))
+
     def npm(self):
         if not has_target(self.static, "sbfmt-npm"):
             return "the tree has no WebAssembly or npm: install clang, lld, wasi-libc, libclang-rt-VERSION-dev-wasm32 and npm"
@@ -151,7 +182,7 @@ class Packages:
     def blender(self):
         tree = self.self_contained or self.static
         run("cmake", "--build", tree, "--target", "blender-addon")
-        shutil.copyfile(os.path.join(tree, "soft_body_format.zip"), self.path("blender", ".zip"))
+        shutil.copyfile(os.path.join(tree, "soft_body_format.zip"), self.path("blender", ".zip", native=not self.self_contained))
         return None
 
     def godot(self):
@@ -164,7 +195,7 @@ class Packages:
         return None
 
 
-NAMES = ("debian", "tarball", "npm", "program", "studio", "blender", "godot")
+NAMES = ("debian", "tarball", "linux", "windows", "npm", "program", "studio", "blender", "godot")
 
 
 def write_sums(folder):
@@ -196,6 +227,7 @@ def main():
     parser.add_argument("--shared", default="")
     parser.add_argument("--self-contained", default="")
     parser.add_argument("--node", default="")
+    parser.add_argument("--windows", default="")
     parser.add_argument("--out", required=True)
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(NAMES))
     arguments = parser.parse_args()
@@ -208,7 +240,8 @@ def main():
     try:
         packages = Packages(os.path.abspath(arguments.static), arguments.shared and os.path.abspath(arguments.shared),
                             arguments.self_contained and os.path.abspath(arguments.self_contained),
-                            arguments.node and os.path.abspath(arguments.node), beside)
+                            arguments.node and os.path.abspath(arguments.node), arguments.windows and os.path.abspath(arguments.windows),
+                            beside)
         missing = make_each(packages, arguments.names or NAMES)
         write_sums(beside)
         os.chmod(beside, 0o755)

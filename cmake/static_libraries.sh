@@ -24,6 +24,13 @@ libwebp 7bf5a8a28cc69bcfa8cb214f2c3095703c6b73ac5fba4d5480c205331d9494df -DWEBP_
 minizip 7d8da446d3b6799e7851f077a66551a46b80fc3de708549e79dbd3e49e842ba1
 assimp ee20da341210d15296e74304ebaf88563734048401f71f008d7d6ae1da373e1d -DASSIMP_BUILD_ASSIMP_TOOLS=OFF -DASSIMP_BUILD_TESTS=OFF -DASSIMP_NO_EXPORT=ON -DASSIMP_WARNINGS_AS_ERRORS=OFF -DASSIMP_INJECT_DEBUG_POSTFIX=OFF -DASSIMP_BUILD_DRACO=ON"
 
+case $what$toolchain in
+  program*windows.cmake) # the window of `sbfmt view`, a DLL
+    libraries="$libraries
+libsdl2 b3f2c822151804125d08db94c65852f711c2e5df2145a59da120748dc32eb9c3 -DSDL_SHARED=ON -DSDL_STATIC=OFF -DSDL_TEST=OFF -DSDL2_DISABLE_SDL2MAIN=ON"
+    ;;
+esac
+
 fail() {
   echo "static_libraries.sh: $1" >&2
   exit "${2:-1}"
@@ -40,7 +47,7 @@ done
 case $folder in /*) ;; *) folder=$PWD/$folder ;; esac
 case $toolchain in '' | /*) ;; *) toolchain=$PWD/$toolchain ;; esac
 stamp=$(cat "$0" ${toolchain:+"$toolchain"} | sha256sum | cut -d' ' -f1)
-[ "$(cat "$folder/stamp" 2>/dev/null)" != "$stamp" ] || exit 0
+case $(cat "$folder/stamp" 2>/dev/null) in "$stamp $what" | "$stamp program") exit 0 ;; esac
 
 work=$folder.unfinished
 rm -rf "$work" "$folder"
@@ -91,14 +98,16 @@ build() {
   [ "$package" != meshoptimizer ] || sed -i 's/ -Werror)/)/' "$work/sources/$package/CMakeLists.txt"
   if [ "$package" = zlib ]; then # Debian leaves Windows' files out, which its CMake file names on every system
     mkdir -p "$work/sources/zlib/win32"
-    touch "$work/sources/zlib/win32/zlib1.rc"
+    echo '1 RCDATA { 0 }' >"$work/sources/zlib/win32/zlib1.rc"
   fi
+  [ "$package" != libxml2 ] || sed -i '1i #define LIBXML_STATIC' "$work/sources/libxml2/config.h.cmake.in" # on Windows it would export its calls
   if [ "$package" = assimp ]; then # headers and a library that Debian takes from packages of their own
     cp -rL /usr/include/utf8 /usr/include/utf8.h /usr/include/stb "$work/sources/assimp/include/"
     mkdir "$work/sources/assimp/contrib/unzip"
     (cd "$work/sources/minizip" && cp ioapi.c ioapi.h unzip.c unzip.h crypt.h "$work/sources/assimp/contrib/unzip/")
     : >"$work/sources/assimp/contrib/unzip/crypt.c" # unzip.c includes what is needed
     sed -i -e '/find_package(draco CONFIG REQUIRED)/d' -e '/{DRACO_LIBRARIES}/d' "$work/sources/assimp/code/CMakeLists.txt"
+    sed -i 's/if(MSVC OR WIN32)/if(MSVC)/' "$work/sources/assimp/CMakeLists.txt" # draco names its library so for MSVC alone
   fi
   {
     cmake -G "$generator" -S "$work/sources/$package" -B "$tree" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF \
@@ -110,6 +119,7 @@ build() {
     fail "$package could not be built; all that was printed is in $log"
   }
   rm -f "$work/made$folder"/lib/*.so* "$work/made$folder"/lib/*.dll.a # some packages build both kinds, and the linker prefers shared ones
+  [ ! -f "$work/made$folder/lib/libzlibstatic.a" ] || mv "$work/made$folder/lib/libzlibstatic.a" "$work/made$folder/lib/libz.a" # on Windows
   mkdir -p "$work/made$folder/licences"
   cp "$work/sources/$package/debian/copyright" "$work/made$folder/licences/$package.txt"
 }
@@ -126,6 +136,6 @@ if [ "$what" = program ]; then # headers of what the program opens at run time
   cp /usr/include/GL/glcorearb.h "$work/made$folder/include/GL/"
   cp -r /usr/include/EGL /usr/include/KHR "$work/made$folder/include/"
 fi
-echo "$stamp" >"$work/made$folder/stamp"
+echo "$stamp $what" >"$work/made$folder/stamp"
 mv "$work/made$folder" "$folder"
 rm -rf "$work"

@@ -5,11 +5,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/fault.h"
+#include "base/output_file.h"
 #include "bundle_description.h"
 #include "conversion_pictures.h"
 #include "mesh_quality.h"
-#include "render/fault.h"
-#include "render/output_file.h"
 #include "sbfmt/io.h"
 
 #define WORD_(x) #x

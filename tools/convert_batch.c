@@ -1,17 +1,20 @@
 #include "convert_batch.h"
 
-#include <dirent.h>
 #include <errno.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "base/child_pipe.h"
+#include "base/folder.h"
+#include "base/system.h"
 #include "sbfmt/io.h"
+#include "thread_pool.h"
 
-enum { MAX_PATH = 4096, MAX_ROW = 1024, MAX_JOBS = 256, HASH_TEXT = 17 };
+enum { MAX_PATH = 4096, MAX_ROW = 1024, MAX_JOBS = 64, HASH_TEXT = 17 };
 
 static const char header[] = "file\tstatus\tkind\tlegs\tbodies\tvisits\tbytes\tseconds\thash\n";
 
@@ -37,33 +40,29 @@ static void add_file(uint64_t *hash, const char *path) {
   if (file) fclose(file);
 }
 
-static int by_name(const struct dirent **a, const struct dirent **b) {
-  return strcmp((*a)->d_name, (*b)->d_name);
-}
-
 /* Hashes files beside the input with the same stem: buffers, material libraries. */
 static void add_siblings(uint64_t *hash, const char *input) {
   char folder[MAX_PATH], path[MAX_PATH];
   const char *slash = strrchr(input, '/'), *name = slash ? slash + 1 : input, *dot = strrchr(name, '.');
   size_t stem = dot && dot != name ? (size_t)(dot - name) : strlen(name);
-  struct dirent **entries;
+  folder_names names;
   snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - input) : 1, slash ? input : ".");
-  int count = scandir(*folder ? folder : "/", &entries, NULL, by_name);
-  for (int i = 0; i < count; i++) {
-    const char *other = entries[i]->d_name;
+  if (!folder_list(*folder ? folder : "/", &names)) return;
+  for (size_t i = 0; i < names.count; i++) {
+    const char *other = names.at[i];
     bool beside = strncmp(other, name, stem) == 0 && other[stem] == '.' && strcmp(other, name) != 0;
     if (beside && snprintf(path, sizeof path, "%s/%s", folder, other) < (int)sizeof path)
       add_file(hash, path);
-    free(entries[i]);
   }
-  if (count >= 0) free(entries);
+  folder_names_free(&names);
 }
 
 /* Hash of the input and of everything that its conversion depends on. */
 static void hash_input(const cli_call *call, const char *input, char text[HASH_TEXT]) {
   uint64_t hash = 14695981039346656037u;
   struct stat program = {.st_size = 0}; /* another version of the program may convert differently */
-  stat("/proc/self/exe", &program);
+  char program_path[MAX_PATH];
+  if (system_program_path(program_path, sizeof program_path)) stat(program_path, &program);
   add_bytes(&hash, &program.st_size, sizeof program.st_size);
   add_bytes(&hash, &program.st_mtime, sizeof program.st_mtime);
   add_file(&hash, input);
@@ -97,7 +96,7 @@ static bool write_whole(const char *path, const char *text, size_t size) {
   FILE *file = fopen(temporary, "wb");
   bool good = file && fwrite(text, 1, size, file) == size;
   if (file) good = fclose(file) == 0 && good;
-  if (good && rename(temporary, path) == 0) return true;
+  if (good && system_replace_file(temporary, path)) return true;
   remove(temporary);
   return false;
 }
@@ -151,24 +150,21 @@ static void write_row(
 /* Writes all rows of the folder, sorted by name, to FOLDER/summary.tsv. */
 static void write_summary(const char *folder) {
   char path[MAX_PATH], row[MAX_ROW], out[MAX_PATH];
-  struct dirent **entries;
+  folder_names names;
   snprintf(path, sizeof path, "%s/.sbfmt", folder);
-  int count = scandir(path, &entries, NULL, by_name);
-  char *text = count >= 0 ? malloc(sizeof header + (size_t)count * MAX_ROW) : NULL;
+  if (!folder_list(path, &names)) return;
+  char *text = malloc(sizeof header + names.count * MAX_ROW);
   size_t used = sizeof header - 1;
   if (text) memcpy(text, header, used);
-  for (int i = 0; i < count; i++) {
-    const char *name = entries[i]->d_name, *dot = strrchr(name, '.');
-    if (text && dot && strcmp(dot, ".tsv") == 0) {
-      snprintf(out, sizeof out, "%.*s", (int)(dot - name), name);
-      if (read_row(folder, out, row)) {
-        memcpy(text + used, row, strlen(row));
-        used += strlen(row);
-      }
-    }
-    free(entries[i]);
+  for (size_t i = 0; text && i < names.count; i++) {
+    const char *name = names.at[i], *dot = strrchr(name, '.');
+    if (!dot || strcmp(dot, ".tsv") != 0) continue;
+    snprintf(out, sizeof out, "%.*s", (int)(dot - name), name);
+    if (!read_row(folder, out, row)) continue;
+    memcpy(text + used, row, strlen(row));
+    used += strlen(row);
   }
-  if (count >= 0) free(entries);
+  folder_names_free(&names);
   snprintf(path, sizeof path, "%s/summary.tsv", folder);
   if (text) write_whole(path, text, used);
   free(text);
@@ -176,10 +172,17 @@ static void write_summary(const char *folder) {
 
 /* --- Jobs ---------------------------------------------------------------------------------------------- */
 
-typedef struct job {
-  pid_t process; /* 0: none */
-  int output;    /* its output, in an unnamed temporary file */
-} job;
+/* Each input is converted by a process of its own: this program, called for that input alone. */
+typedef struct batch {
+  cli_call *call;
+  const char *folder;
+  convert_path *path_of;
+  char program[MAX_PATH];
+  const char **arguments; /* of every call: the options; the input and the output follow */
+  size_t argument_count;
+  pthread_mutex_t lock; /* of what follows, and of both outputs */
+  int worst, unchanged;
+} batch;
 
 static double now_s(void) {
   struct timespec t;
@@ -187,94 +190,125 @@ static double now_s(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void pass_on(int output) {
+/* The command line of the call without what chooses inputs and outputs; false if memory runs out. */
+static bool list_arguments(batch *b) {
+  const cli_call *call = b->call;
+  size_t capacity = 2 * ((size_t)call->given_count + CLI_MAX_OPTIONS) + 8;
+  b->arguments = calloc(capacity, sizeof *b->arguments);
+  if (!b->arguments) return false;
+  b->arguments[b->argument_count++] = b->program;
+  b->arguments[b->argument_count++] = call->verb->name;
+  for (int i = 0; i < call->given_count; i++) {
+    const char *option = call->verb->options[call->given[i].index].name;
+    if (strcmp(option, "--out-dir") == 0 || strcmp(option, "--jobs") == 0) continue;
+    b->arguments[b->argument_count++] = option;
+    b->arguments[b->argument_count++] = call->given[i].value;
+  }
+  for (int i = 0; call->verb->options[i].name; i++)
+    if (!call->verb->options[i].argument && call->values[i])
+      b->arguments[b->argument_count++] = call->verb->options[i].name;
+  if (call->verbose) b->arguments[b->argument_count++] = "--verbose";
+  return true;
+}
+
+static void pass_on(FILE *from, FILE *to) {
   char bytes[4096];
-  ssize_t got;
-  lseek(output, 0, SEEK_SET);
-  while ((got = read(output, bytes, sizeof bytes)) > 0) fwrite(bytes, 1, (size_t)got, stderr);
-  close(output);
-}
-
-/* Waits for one job, prints its output in one piece and returns its exit status. */
-static int finish_one(job *jobs, long count) {
-  int state;
-  pid_t process = wait(&state);
-  for (long i = 0; i < count; i++) {
-    if (process <= 0 || jobs[i].process != process) continue;
-    jobs[i].process = 0;
-    pass_on(jobs[i].output);
-    return WIFEXITED(state) ? WEXITSTATUS(state) : SBF_FAILED;
-  }
-  return SBF_OK;
-}
-
-static bool start(job *to, cli_call *call, const char *folder, const char *input, const char *out,
-    const char *hash, convert_one *convert, void *user) {
-  FILE *said = tmpfile();
-  to->output = said ? dup(fileno(said)) : -1;
-  if (said) fclose(said);
-  fflush(NULL);
-  to->process = to->output < 0 ? -1 : fork();
-  if (to->process < 0) {
-    if (to->output >= 0) close(to->output);
-    to->process = 0;
-    return false;
-  }
-  if (to->process > 0) return true;
-  dup2(to->output, STDERR_FILENO);
-  double from = now_s();
-  int status = convert(call, input, out, user);
-  cli_print_counted(call);
-  write_row(folder, input, out, status, now_s() - from, hash);
-  fflush(NULL);
-  _exit(status);
+  size_t got;
+  rewind(from);
+  while ((got = fread(bytes, 1, sizeof bytes, from)) > 0) fwrite(bytes, 1, got, to);
+  fflush(to);
 }
 
 static bool is_unchanged(const char *folder, const char *out, const char *hash) {
   char row[MAX_ROW];
-  return access(out, R_OK) == 0 && read_row(folder, out, row) && ends_with_hash(row, hash);
+  FILE *there = fopen(out, "rb");
+  if (there) fclose(there);
+  return there && read_row(folder, out, row) && ends_with_hash(row, hash);
 }
 
-int convert_batch(
-    cli_call *call, const char *folder, long jobs, convert_path *path_of, convert_one *convert, void *user) {
-  char path[MAX_PATH], row[MAX_ROW], hash[HASH_TEXT];
-  job running[MAX_JOBS] = {{0}};
-  long busy = 0;
-  int worst = SBF_OK, unchanged = 0, status;
-  if (jobs <= 0) jobs = sysconf(_SC_NPROCESSORS_ONLN);
-  jobs = jobs < 1 ? 1 : jobs > MAX_JOBS ? MAX_JOBS : jobs;
-  if (snprintf(path, sizeof path, "%s/.sbfmt", folder) >= (int)sizeof path ||
-      (mkdir(path, 0777) != 0 && errno != EEXIST))
-    return cli_wrong(call, "the folder %s cannot be made: %s", path, strerror(errno));
-  for (int i = 0; i < call->input_count; i++) {
-    long index = 0;
-    if (!path_of(call, folder, call->inputs[i], path, sizeof path)) continue; /* checked before */
-    hash_input(call, call->inputs[i], hash);
-    if (is_unchanged(folder, path, hash)) {
-      unchanged++;
-      continue;
-    }
-    for (; busy >= jobs; busy--)
-      if ((status = finish_one(running, jobs)) > worst) worst = status;
-    while (running[index].process) index++;
-    if (start(&running[index], call, folder, call->inputs[i], path, hash, convert, user))
-      busy++;
-    else
-      worst = cli_wrong(call, "no process can be started for %s: %s", call->inputs[i], strerror(errno));
+/* Converts one input and prints what its process printed in one piece. */
+static int convert_one(batch *b, const char *input, const char *out, const char *hash) {
+  const char *const last[] = {"-o", out, "--", input, NULL};
+  const char **arguments = malloc(b->argument_count * sizeof *arguments + sizeof last);
+  child_pipe child;
+  double from = now_s();
+  int error = ENOMEM;
+  if (arguments) {
+    memcpy(arguments, b->arguments, b->argument_count * sizeof *arguments);
+    memcpy(arguments + b->argument_count, last, sizeof last);
+    error = child_pipe_start(&child, arguments, true);
   }
-  for (; busy > 0; busy--)
-    if ((status = finish_one(running, jobs)) > worst) worst = status;
-  write_summary(folder);
+  free(arguments);
+  if (error) {
+    pthread_mutex_lock(&b->lock);
+    cli_wrong(b->call, "no process can be started for %s: %s", input, strerror(error));
+    pthread_mutex_unlock(&b->lock);
+    return SBF_FAILED;
+  }
+  int status = child_pipe_wait(&child);
+  if (status < 0) status = SBF_FAILED;
+  write_row(b->folder, input, out, status, now_s() - from, hash);
+  pthread_mutex_lock(&b->lock);
+  pass_on(child.wrote, stdout);
+  pass_on(child.said, stderr);
+  pthread_mutex_unlock(&b->lock);
+  child_pipe_free(&child);
+  return status;
+}
+
+static void convert_input(void *context, uint32_t index) {
+  batch *b = context;
+  const char *input = b->call->inputs[index];
+  char path[MAX_PATH], hash[HASH_TEXT];
+  if (!b->path_of(b->call, b->folder, input, path, sizeof path)) return; /* checked before */
+  hash_input(b->call, input, hash);
+  bool unchanged = is_unchanged(b->folder, path, hash);
+  int status = unchanged ? SBF_OK : convert_one(b, input, path, hash);
+  pthread_mutex_lock(&b->lock);
+  b->unchanged += unchanged;
+  if (status > b->worst) b->worst = status;
+  pthread_mutex_unlock(&b->lock);
+}
+
+static void print_summary(const batch *b) {
+  char path[MAX_PATH], row[MAX_ROW];
   printf("%-36s %-10s %-8s %4s %6s %10s %8s\n", "file", "status", "kind", "legs", "bodies", "visits", "s");
-  for (int i = 0; i < call->input_count; i++) {
+  for (int i = 0; i < b->call->input_count; i++) {
+    const char *input = b->call->inputs[i];
     char name[256], state[32], kind[32] = "", legs[16], bodies[16], visits[32], bytes[32], seconds[32];
-    if (!path_of(call, folder, call->inputs[i], path, sizeof path) || !read_row(folder, path, row)) continue;
+    if (!b->path_of(b->call, b->folder, input, path, sizeof path) || !read_row(b->folder, path, row))
+      continue;
     if (sscanf(row, "%255[^\t]\t%31[^\t]\t%31[^\t]\t%15[^\t]\t%15[^\t]\t%31[^\t]\t%31[^\t]\t%31[^\t]", name,
             state, kind, legs, bodies, visits, bytes, seconds) == 8)
       printf("%-36s %-10s %-8s %4s %6s %10s %8s\n", name, state, kind, legs, bodies, visits, seconds);
     else
-      printf("%-36s failed\n", name_of(call->inputs[i]));
+      printf("%-36s failed\n", name_of(input));
   }
-  printf("%d files, %d unchanged; all of the folder: %s/summary.tsv\n", call->input_count, unchanged, folder);
-  return worst;
+  printf("%d files, %d unchanged; all of the folder: %s/summary.tsv\n", b->call->input_count, b->unchanged,
+      b->folder);
+}
+
+int convert_batch(cli_call *call, const char *folder, long jobs, convert_path *path_of) {
+  char path[MAX_PATH];
+  batch b = {.call = call, .folder = folder, .path_of = path_of, .worst = SBF_OK};
+  if (jobs <= 0) jobs = (long)system_processor_count();
+  if (jobs > MAX_JOBS) jobs = MAX_JOBS;
+  if (snprintf(path, sizeof path, "%s/.sbfmt", folder) >= (int)sizeof path || !system_make_folder(path))
+    return cli_wrong(call, "the folder %s cannot be made: %s", path, strerror(errno));
+  if (!system_program_path(b.program, sizeof b.program))
+    return cli_wrong(call, "the system does not tell where this program is: convert one by one with -o");
+  if (!list_arguments(&b)) return cli_wrong(call, "out of memory");
+  pthread_mutex_init(&b.lock, NULL);
+  thread_pool *pool = thread_pool_create((uint32_t)jobs); /* without one, one input after the other */
+  sbr_tasks tasks = thread_pool_tasks(pool);
+  if (tasks.run)
+    tasks.run(tasks.user, convert_input, &b, (uint32_t)call->input_count);
+  else
+    for (int i = 0; i < call->input_count; i++) convert_input(&b, (uint32_t)i);
+  thread_pool_destroy(pool);
+  pthread_mutex_destroy(&b.lock);
+  free(b.arguments);
+  write_summary(folder);
+  print_summary(&b);
+  return b.worst;
 }

@@ -1,12 +1,13 @@
 #include "file_list.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
+
+#include "base/folder.h"
+#include "base/system.h"
 
 enum { DEEPEST = 64 };
 
@@ -37,53 +38,44 @@ static bool ends_with(const char *name, const char *ending) {
   return length > tail && strcasecmp(name + length - tail, ending) == 0;
 }
 
-static int by_name(const void *a, const void *b) {
-  return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-/* All files of the folder, sorted by name, without hidden ones. */
-static bool read_folder(const char *folder, file_list *entries) {
-  DIR *directory = opendir(folder);
-  if (!directory) {
-    fprintf(stderr, "sbfmt: error: the folder %s cannot be read: %s\n", folder, strerror(errno));
-    return false;
-  }
-  bool good = true;
+static char *join(const char *folder, const char *name) {
   size_t length = strlen(folder);
   while (length > 1 && folder[length - 1] == '/') length--;
-  for (struct dirent *entry; good && (entry = readdir(directory));) {
-    if (entry->d_name[0] == '.') continue;
-    size_t capacity = length + 1 + strlen(entry->d_name) + 1;
-    char *path = malloc(capacity);
-    if (path)
-      snprintf(path, capacity, "%.*s%s%s", (int)length, folder, folder[length - 1] == '/' ? "" : "/",
-          entry->d_name);
-    good = keep(entries, path);
-  }
-  closedir(directory);
-  if (entries->count) qsort(entries->paths, entries->count, sizeof *entries->paths, by_name);
+  size_t capacity = length + 1 + strlen(name) + 1;
+  char *path = malloc(capacity);
+  if (path)
+    snprintf(path, capacity, "%.*s%s%s", (int)length, folder, folder[length - 1] == '/' ? "" : "/", name);
+  return path;
+}
+
+static bool add_folder(file_list *list, const char *folder, int depth);
+
+/* Adds a bundle, or those of a folder below; hidden files and others are left out. */
+static bool add_entry(file_list *list, const char *folder, const char *name, int depth) {
+  if (name[0] == '.') return true;
+  char *path = join(folder, name);
+  if (!path) return out_of_memory();
+  bool is_folder = system_is_folder(path, false);
+  if (!is_folder && (ends_with(name, ".sbf") || ends_with(name, ".sbfz"))) return keep(list, path);
+  bool good = !is_folder || depth >= DEEPEST || add_folder(list, path, depth + 1);
+  free(path);
   return good;
 }
 
 static bool add_folder(file_list *list, const char *folder, int depth) {
-  file_list entries = {NULL, 0, 0};
-  bool good = read_folder(folder, &entries);
-  for (size_t i = 0; i < entries.count && good; i++) {
-    struct stat is;
-    if (lstat(entries.paths[i], &is) != 0) continue;
-    if (S_ISDIR(is.st_mode) && depth < DEEPEST)
-      good = add_folder(list, entries.paths[i], depth + 1);
-    else if (!S_ISDIR(is.st_mode) &&
-             (ends_with(entries.paths[i], ".sbf") || ends_with(entries.paths[i], ".sbfz")))
-      good = keep(list, strdup(entries.paths[i]));
+  folder_names names;
+  if (!folder_list(folder, &names)) {
+    fprintf(stderr, "sbfmt: error: the folder %s cannot be read: %s\n", folder, strerror(errno));
+    return false;
   }
-  file_list_free(&entries);
+  bool good = true;
+  for (size_t i = 0; i < names.count && good; i++) good = add_entry(list, folder, names.at[i], depth);
+  folder_names_free(&names);
   return good;
 }
 
 bool file_list_add(file_list *list, const char *path) {
-  struct stat is;
-  if (stat(path, &is) == 0 && S_ISDIR(is.st_mode)) return add_folder(list, path, 0);
+  if (system_is_folder(path, true)) return add_folder(list, path, 0);
   return keep(list, strdup(path));
 }
 

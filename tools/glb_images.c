@@ -4,6 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/system.h"
 #include "output_name.h"
 #include "sbfmt/gltf.h"
 
@@ -19,7 +20,7 @@ sbf_asset *glb_images_load(const char *path) {
 static bool make_folders(char *path, size_t from) {
   for (char *at = strchr(path + from, '/'); at; at = strchr(at + 1, '/')) {
     *at = 0;
-    bool made = mkdir(path, 0777) == 0 || errno == EEXIST;
+    bool made = system_make_folder(path);
     *at = '/';
     if (!made) return false;
   }
@@ -34,7 +35,7 @@ static bool write_whole(const char *path, sbf_u8_list bytes) {
   if (!file) return false;
   bool good = fwrite(bytes.at, 1, bytes.count, file) == bytes.count;
   good = fclose(file) == 0 && good;
-  good = good && rename(temporary, path) == 0;
+  good = good && system_replace_file(temporary, path);
   if (!good) remove(temporary);
   return good;
 }

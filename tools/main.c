@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/system.h"
 #include "cli.h"
 #include "generate.h"
 
@@ -191,6 +192,7 @@ static int run_call(int argc, char **argv) {
 
 /* Checks that all output was written, to report a full disk for text and JSON. */
 int main(int argc, char **argv) {
+  system_begin(argc, argv);
   int status = run_call(argc, argv);
   if (fflush(stdout) == 0 && !ferror(stdout)) return status;
   fprintf(stderr, "sbfmt: error: standard output could not be written (is the disk full?)\n");

@@ -3,9 +3,9 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
+#include "base/system.h"
 
 static sbf_status fault(const pose_file *p, int why, sbf_diagnostic *error) {
   return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, p->output.given,
@@ -50,7 +50,7 @@ sbf_status pose_file_add(pose_file *p, const session *s, sbf_diagnostic *error) 
 sbf_status pose_file_close(pose_file *p, bool keep, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   if (p->file) {
-    bool good = fflush(p->file) == 0 && (p->output.direct || fsync(fileno(p->file)) == 0);
+    bool good = fflush(p->file) == 0 && (p->output.direct || system_sync_file(p->file));
     int why = errno;
     if (fclose(p->file) != 0 && good) good = false, why = errno;
     if (keep && !good) status = fault(p, why, error);

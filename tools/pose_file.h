@@ -2,7 +2,7 @@
 #ifndef POSE_FILE_H
 #define POSE_FILE_H
 
-#include "render/output_file.h"
+#include "base/output_file.h"
 #include "session.h"
 
 typedef struct pose_file {

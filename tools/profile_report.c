@@ -3,9 +3,9 @@
 #include <errno.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
+#include "base/system.h"
 
 double profile_now_s(void) {
   struct timespec t;
@@ -113,7 +113,7 @@ sbf_status profile_report_end(profile_report *p, bool keep, sbf_diagnostic *erro
   sbf_status status = SBF_OK;
   if (p->file) {
     bool good = !keep || fputs("\n]}\n", p->file) >= 0;
-    good = fflush(p->file) == 0 && (p->output.direct || fsync(fileno(p->file)) == 0) && good;
+    good = fflush(p->file) == 0 && (p->output.direct || system_sync_file(p->file)) && good;
     int why = errno;
     if (fclose(p->file) != 0 && good) good = false, why = errno;
     if (keep && !good) status = fault(p, why, error);

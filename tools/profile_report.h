@@ -2,7 +2,7 @@
 #ifndef PROFILE_REPORT_H
 #define PROFILE_REPORT_H
 
-#include "render/output_file.h"
+#include "base/output_file.h"
 #include "sbrun/debug.h"
 #include "session.h"
 

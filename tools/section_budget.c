@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/fault.h"
 #include "chart/watched_motion.h"
-#include "render/fault.h"
 #include "sbfmt/mechanics.h"
 #include "sbrun/detail.h"
 #include "tune/comparison.h"

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fault.h"
 #include "chart/bundle_case.h"
 #include "chart/drawing.h"
 #include "chart/rounds.h"
@@ -11,7 +12,6 @@
 #include "chart/table_reader.h"
 #include "chart_maps.h"
 #include "cli.h"
-#include "render/fault.h"
 #include "sbfmt/io.h"
 
 /* Options of the call. */

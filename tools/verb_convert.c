@@ -7,6 +7,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "base/system.h"
 #include "building.h"
 #include "chart/out_folder.h"
 #include "conversion_report.h"
@@ -175,22 +176,18 @@ static bool prepare_folder(const cli_call *call, const char *folder) {
     cli_print_diagnostic(call, &error);
     return false;
   }
-  if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+  if (!system_make_folder(folder))
     return cli_wrong(call, "the folder %s cannot be made: %s", folder, strerror(errno)), false;
   return true;
-}
-
-static int convert_for_batch(cli_call *call, const char *input, const char *out, void *user) {
-  return convert(call, input, out, user);
 }
 
 static int convert_all(cli_call *call, sbf_convert_options *options) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
   long jobs = 0;
-  if (!cli_integer(call, "--jobs", 1, 256, &jobs)) return SBF_FAILED;
+  if (!cli_integer(call, "--jobs", 1, 64, &jobs)) return SBF_FAILED;
   if (folder) {
     if (!prepare_folder(call, folder)) return SBF_FAILED;
-    return convert_batch(call, folder, jobs, path_in, convert_for_batch, options);
+    return convert_batch(call, folder, jobs, path_in);
   }
   int status = convert(call, call->inputs[0], out, options);
   cli_print_counted(call);

@@ -1,8 +1,8 @@
 /* sbfmt validate: reports findings of files in parallel, and repairs. */
 #include <pthread.h>
 #include <stdlib.h>
-#include <unistd.h>
 
+#include "base/system.h"
 #include "checking.h"
 #include "file_list.h"
 #include "output_name.h"
@@ -209,11 +209,10 @@ static int run_fix(const cli_call *call) {
 
 static int run(cli_call *call) {
   file_list list = {NULL, 0, 0};
-  long threads = sysconf(_SC_NPROCESSORS_ONLN);
+  long threads = system_processor_count();
   int status = SBF_FAILED;
   if (cli_switch(call, "--fix")) return run_fix(call);
   if (cli_value(call, "-o")) return cli_wrong(call, "-o is for --fix");
-  if (threads < 1) threads = 1;
   if (threads > 64) threads = 64;
   if (!cli_integer(call, "--threads", 1, 64, &threads)) return SBF_FAILED;
   bool listed = true;

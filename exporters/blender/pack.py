@@ -34,10 +34,8 @@ def platform_of(library):
     return {0x01000007: "macos-x64", 0x0100000C: "macos-arm64"}.get(int.from_bytes(head[4:8], "little"))
 
 
-def with_platforms(manifest, libraries):
-    platforms = sorted({platform_of(library) or sys.exit(f"pack.py: {library} is not a library for a platform that Blender supports")
-                        for library in libraries})
-    named = ", ".join(f'"{platform}"' for platform in platforms)
+def with_platforms(manifest, platforms):
+    named = ", ".join(f'"{platform}"' for platform in sorted(platforms))
     return manifest.replace(b"\n[permissions]", f"platforms = [{named}]\n\n[permissions]".encode()) if platforms else manifest
 
 
@@ -53,13 +51,17 @@ def add(archive, path, name, change=None):
 def main(out, libraries, licences):
     module = os.path.join(FOLDER, os.pardir, "python", "sbfmt")
     temporary = f"{out}.{os.getpid()}"
+    platforms = {platform_of(path) or sys.exit(f"pack.py: {path} is not a library for a platform that Blender supports"): path
+                 for path in libraries}
+    if len(platforms) < len(libraries):
+        sys.exit("pack.py: two libraries are for the same platform: name one of each")
     with zipfile.ZipFile(temporary, "w") as archive:
         for folder, inside in ((os.path.join(FOLDER, ADDON), ADDON), (module, f"{ADDON}/sbfmt")):
             for path in python_files(folder):
-                change = (lambda content: with_platforms(content, libraries)) if path.endswith("blender_manifest.toml") else None
+                change = (lambda content: with_platforms(content, platforms)) if path.endswith("blender_manifest.toml") else None
                 add(archive, path, f"{inside}/{os.path.relpath(path, folder).replace(os.sep, '/')}", change)
-        for path in libraries:
-            add(archive, path, f"{ADDON}/sbfmt/lib/{os.path.basename(path)}")
+        for platform, path in platforms.items():
+            add(archive, path, f"{ADDON}/sbfmt/lib/{platform}/{os.path.basename(path)}")
         for name in sorted(os.listdir(licences)) if licences else ():
             add(archive, os.path.join(licences, name), f"{ADDON}/sbfmt/lib/licences/{name}")
     os.replace(temporary, out)

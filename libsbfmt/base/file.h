@@ -4,6 +4,8 @@
 #ifndef SBFI_FILE_H
 #define SBFI_FILE_H
 
+#include <stdio.h>
+
 #include "base/diagnostic.h"
 #include "base/memory.h"
 
@@ -69,5 +71,12 @@ void sbfi_file_writer_abandon(sbfi_file_writer *writer);
 /* Opens, writes and commits. */
 sbf_status sbfi_file_write(
     const char *path, const void *bytes, size_t size, const sbf_allocator *allocator, sbf_diagnostic *error);
+
+/* The part of a path behind its folders: behind the last slash, on Windows also behind a backslash or a
+ * drive's colon. */
+const char *sbfi_path_name(const char *path);
+
+/* A stream that discards what is written to it; NULL if none can be opened. Close it with fclose. */
+FILE *sbfi_file_discard(void);
 
 #endif

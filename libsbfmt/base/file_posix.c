@@ -148,10 +148,18 @@ void sbfi_file_close(sbfi_file *file) {
   file->handle = -1;
 }
 
+const char *sbfi_path_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+FILE *sbfi_file_discard(void) {
+  return fopen("/dev/null", "w");
+}
+
 /* Offset of the file name in the path of a writer's temporary file. */
 static size_t folder_length(const sbfi_file_writer *writer) {
-  const char *slash = strrchr(writer->final_path, '/');
-  return slash ? (size_t)(slash - writer->final_path) + 1 : 0;
+  return (size_t)(sbfi_path_name(writer->final_path) - writer->final_path);
 }
 
 /* Tries new names in the target's folder until `make` succeeds, with the result of open. The name is short,

@@ -1,5 +1,8 @@
 /* A web page has no files: loads and saves use memory. */
 #include "base/file.h"
+
+#include <string.h>
+
 #include "base/text.h"
 
 static sbf_status no_files(sbf_code code, const char *path, sbf_diagnostic *error) {
@@ -65,4 +68,9 @@ sbf_status sbfi_file_write(
     const char *path, const void *bytes, size_t size, const sbf_allocator *allocator, sbf_diagnostic *error) {
   (void)bytes, (void)size, (void)allocator;
   return no_files(SBF_CODE_IO_CANNOT_WRITE, path, error);
+}
+
+const char *sbfi_path_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
 }

@@ -151,16 +151,20 @@ void sbfi_file_close(sbfi_file *file) {
   file->handle = -1;
 }
 
-static size_t folder_length(const char *path) {
-  size_t length = strlen(path);
-  while (length && path[length - 1] != '/' && path[length - 1] != '\\' && path[length - 1] != ':') length--;
-  return length;
+const char *sbfi_path_name(const char *path) {
+  const char *name = path + strlen(path);
+  while (name > path && !strchr("/\\:", name[-1])) name--;
+  return name;
+}
+
+FILE *sbfi_file_discard(void) {
+  return fopen("NUL", "w");
 }
 
 /* Creates a file with a new name in the target's folder. */
 static HANDLE create_temporary(sbfi_file_writer *writer) {
   wchar_t wide[SBFI_WIDE_PATH];
-  size_t folder = folder_length(writer->final_path);
+  size_t folder = (size_t)(sbfi_path_name(writer->final_path) - writer->final_path);
   LARGE_INTEGER now;
   QueryPerformanceCounter(&now);
   uint32_t mark = (uint32_t)now.QuadPart ^ (uint32_t)GetCurrentProcessId() << 12;

@@ -1,6 +1,5 @@
 /* Runs a program as a child process with limits and captures its output, for work that may crash, hang or
- * exhaust memory. One implementation per system (process_posix.c,
- * process_node.c). */
+ * exhaust memory. One implementation per system (process_posix.c, process_windows.c, process_node.c). */
 #ifndef SBFI_PROCESS_H
 #define SBFI_PROCESS_H
 
@@ -18,7 +17,7 @@ typedef struct sbfi_process_limits {
 
 typedef enum sbfi_process_end {
   SBFI_PROCESS_EXITED = 0,      /* normally: see exit_status */
-  SBFI_PROCESS_KILLED,          /* by a signal, its own or another's: see signal */
+  SBFI_PROCESS_KILLED,          /* by a signal or a fault, its own or another's: see signal */
   SBFI_PROCESS_TIMED_OUT,       /* by us, at the wall time limit */
   SBFI_PROCESS_CPU_LIMIT,       /* by the system, at the processor time limit */
   SBFI_PROCESS_OUTPUT_TOO_LARGE /* by us, when it wrote more than the limit */
@@ -29,7 +28,7 @@ enum { SBFI_PROCESS_ERROR_TAIL = 512 };
 typedef struct sbfi_process_result {
   sbfi_process_end end;
   int exit_status; /* if it exited, else 0 */
-  int signal;      /* if a signal (including ours) ended it, else 0 */
+  int signal;      /* if a signal (including ours) ended it, on Windows the code of a fault; else 0 */
   uint8_t *output; /* its standard output; NULL if output_size is 0 */
   size_t output_size, output_capacity;
   char error_tail[SBFI_PROCESS_ERROR_TAIL]; /* the last part of its standard error: UTF-8, NUL-terminated */
@@ -52,5 +51,7 @@ void sbfi_process_copy_tail(const char *tail, size_t length, char *to);
 
 /* One line about its end, such as "ended with status 1". */
 void sbfi_process_describe(const sbfi_process_result *result, char *to, size_t size);
+/* The same for the `signal` of SBFI_PROCESS_KILLED (process_end_posix.c, process_windows.c). */
+void sbfi_process_describe_kill(int number, char *to, size_t size);
 
 #endif

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "export/exporting.h"
 #include "model/level_mesh.h"
 
@@ -179,9 +180,8 @@ static sbf_status write_meshes(sbfi_export *e, const char *library, bool surface
   obj_counts before = {0, 0, 0};
   sbfi_text_string(&e->text, "# meshes of sbfmt: metres, +Y up\n");
   if (asset->materials.count) {
-    const char *slash = strrchr(library, '/');
     sbfi_text_string(&e->text, "mtllib ");
-    write_name(e, slash ? slash + 1 : library, false);
+    write_name(e, sbfi_path_name(library), false);
     sbfi_text_char(&e->text, '\n');
   }
   for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
@@ -195,9 +195,10 @@ static sbf_status write_meshes(sbfi_export *e, const char *library, bool surface
 }
 
 static bool exists(const char *path) {
-  FILE *file = fopen(path, "rb");
-  if (file) fclose(file);
-  return file != NULL;
+  sbfi_file file;
+  if (sbfi_file_open(path, &file, NULL) != SBF_OK) return false;
+  sbfi_file_close(&file);
+  return true;
 }
 
 sbf_status sbfi_export_obj(sbfi_export *e) {

@@ -151,10 +151,9 @@ static void put_escaped(sbfi_text *to, const char *text) {
 static void list_frame(sbf_result_series *s, double time_s) {
   char path[FRAME_BYTES], head[64];
   frame_path(s, s->written, "", path);
-  const char *name = strrchr(path, '/');
   snprintf(head, sizeof head, "<DataSet timestep=\"%.9g\" part=\"0\" file=\"", time_s);
   sbfi_text_string(&s->collection, head);
-  put_escaped(&s->collection, name ? name + 1 : path);
+  put_escaped(&s->collection, sbfi_path_name(path));
   sbfi_text_string(&s->collection, "\"/>\n");
 }
 

@@ -2,10 +2,11 @@
 
 #include <string.h>
 
+#include "base/file.h"
+
 bool sbfi_sibling_path(char *to, size_t size, const char *path, sbfi_span name) {
-  const char *slash = strrchr(path, '/');
   bool absolute = name.length && (*name.at == '/' || *name.at == '\\');
-  size_t folder = slash && !absolute ? (size_t)(slash - path) + 1 : 0;
+  size_t folder = absolute ? 0 : (size_t)(sbfi_path_name(path) - path);
   if (!name.length || memchr(name.at, 0, name.length) || folder >= size || name.length >= size - folder)
     return false;
   memcpy(to, path, folder);

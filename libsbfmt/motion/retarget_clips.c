@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "model/unique_id.h"
 #include "motion/retargeting.h"
 
@@ -342,7 +343,7 @@ static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena 
 /* The file's name without folders and extension, for a clip without a name. */
 static const char *name_clip(motion *m, const sbf_clip *from) {
   if (from->name && from->name[0]) return sbf_asset_copy_text(m->to, from->name);
-  const char *slash = strrchr(m->file, '/'), *name = slash ? slash + 1 : m->file, *dot = strrchr(name, '.');
+  const char *name = sbfi_path_name(m->file), *dot = strrchr(name, '.');
   char *copy = (char *)(uintptr_t)sbf_asset_copy_text(m->to, name);
   if (copy && dot && dot != name) copy[dot - name] = 0;
   return copy;

@@ -60,6 +60,11 @@ def checks(arguments, folder):
     yield "CMake package and pkg-config, moved", tarball, [
         os.path.join(tests, "install", "check_install.py"), "--source", arguments.source, "--scratch",
         os.path.join(arguments.scratch, "tarball"), "--cc", arguments.cc, *cxx, "--tarball", tarball]
+    linux = first(folder, "sbfmt-program-*.tar.gz")
+    yield "the program for any Linux", linux, [os.path.join(tests, "install", "check_program.py"), "--native", arguments.build, linux]
+    windows = first(folder, "sbfmt-*-windows-x86_64.zip")
+    yield "the package for Windows, by wine", windows, [os.path.join(tests, "machines", "check_windows_package.py"), "--source", arguments.source,
+                                                        "--native", arguments.build, windows]
     npm = first(folder, "sbfmt-npm-*.tgz")
     yield "npm package, in a fresh project", npm, [os.path.join(tests, "web", "test_package.py"), npm]
     cli = first(folder, "sbfmt-cli-*.tgz")

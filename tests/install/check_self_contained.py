@@ -20,15 +20,19 @@ def output_of(*command):
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
-def faults_of(library, newest):
-    needed = set(re.findall(r"\(NEEDED\).*\[(.*)\]", output_of("readelf", "--wide", "--dynamic", library)))
+def faults_of_needs(file, newest):
+    """What a program or library needs beside the C library of version `newest`."""
+    needed = set(re.findall(r"\(NEEDED\).*\[(.*)\]", output_of("readelf", "--wide", "--dynamic", file)))
     for name in sorted(needed - C_LIBRARY):
         yield f"it needs {name}"
-    symbols = output_of("readelf", "--wide", "--dyn-syms", library)
-    for version in sorted(set(re.findall(r"@GLIBC_([\d.]+)", symbols))):
+    for version in sorted(set(re.findall(r"@GLIBC_([\d.]+)", output_of("readelf", "--wide", "--dyn-syms", file)))):
         if [int(part) for part in version.split(".")] > [int(part) for part in newest.split(".")]:
             yield f"it needs glibc {version}"
-    for line in symbols.splitlines():
+
+
+def faults_of(library, newest):
+    yield from faults_of_needs(library, newest)
+    for line in output_of("readelf", "--wide", "--dyn-syms", library).splitlines():
         words = line.split()
         if len(words) > 7 and words[4] in ("GLOBAL", "WEAK") and words[6] != "UND" and not words[7].startswith(("sbf", "sbr")):
             yield f"it shows {words[7]}"

@@ -7,10 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/child_pipe.h"
 #include "harness.h"
 #include "left_behind.h"
 #include "random.h"
-#include "render/child_pipe.h"
 #include "render/movie.h"
 #include "sbfmt/codes.h"
 
@@ -21,10 +21,10 @@ static const draw_movie_options gif = {.kind = DRAW_MOVIE_GIF, .width = WIDTH, .
 
 #define have_ffmpeg() have_ffmpeg_for(__func__)
 static bool have_ffmpeg_for(const char *function) {
-  char name[] = "ffmpeg", version[] = "-version", said[8];
-  char *arguments[] = {name, version, NULL};
+  const char *const arguments[] = {"ffmpeg", "-version", NULL};
+  char said[8];
   child_pipe child;
-  if (child_pipe_start(&child, arguments) != 0) {
+  if (child_pipe_start(&child, arguments, false) != 0) {
     harness_skip_case(function, "ffmpeg is not in PATH");
     return false;
   }

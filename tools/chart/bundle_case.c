@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 #include "sbfmt/mechanics.h"
 
 /* Times are taken over its beginning: the first step, hop or turn. */

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/fault.h"
 #include "chart/made_bodies.h"
-#include "render/fault.h"
 
 static sbf_status made(chart_subject *subject, sbf_asset *asset, const char *model, sbf_diagnostic *error) {
   if (!asset) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a body to chart");

@@ -4,15 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/child_pipe.h"
+#include "base/fault.h"
+#include "base/system.h"
 #include "chart/plot_script.h"
-#include "render/child_pipe.h"
-#include "render/fault.h"
 
 sbf_status chart_gnuplot(const char *script, size_t size, const char *name, sbf_diagnostic *error) {
-  char program[] = "gnuplot", from_input[] = "-", *const arguments[] = {program, from_input, NULL};
+  const char *const arguments[] = {"gnuplot", "-", NULL};
   child_pipe child;
   char said[400];
-  int failed = child_pipe_start(&child, arguments);
+  int failed = child_pipe_start(&child, arguments, false);
   if (failed == ENOENT)
     return fault_set(error, SBF_CODE_IO_CANNOT_RUN,
         "the program gnuplot, which draws charts, is not in PATH: install it (Debian: gnuplot-nox), or ask "
@@ -40,11 +41,13 @@ static sbf_status draw_axis(const chart_sheet *sheet, chart_axis axis, const cha
   if (!chart_folder_file(folder, name, path, sizeof path) || !quotable(path))
     return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, name,
         "gnuplot takes no path with quotes or ends of line in it: name another folder");
-  FILE *memory = open_memstream(&script, &size);
+  system_memory_stream stream;
+  FILE *memory = system_memory_stream_open(&stream);
   bool good = memory && chart_plot_script(memory, sheet, axis, machine, path);
-  if (memory) good = fclose(memory) == 0 && good;
-  sbf_status status = good ? chart_gnuplot(script, size, name, error)
-                           : fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a drawing");
+  script = system_memory_stream_close(&stream, &size);
+  sbf_status status = good && script
+                          ? chart_gnuplot(script, size, name, error)
+                          : fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a drawing");
   free(script);
   return status;
 }

@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/fault.h"
 #include "chart/made_bodies.h"
 #include "chart/subject.h"
 #include "chart/watched_motion.h"
-#include "render/fault.h"
 #include "sbfmt/mechanics.h"
 
 const char *const chart_elastic_names[] = {"springs", "tetrahedra", "regions"};

@@ -1,10 +1,10 @@
 #include "chart/machine.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+#include "base/system.h"
 #include "sbfmt_commit.h"
 #include "sbrun/sbrun.h"
 
@@ -41,13 +41,11 @@ static const char *compiler(void) {
 chart_machine chart_this_machine(void) {
   chart_machine m = {.lanes = sbr_get_lane_count()};
   time_t now = time(NULL);
-  struct tm day;
   snprintf(m.commit, sizeof m.commit, "%s", SBFMT_COMMIT);
   snprintf(m.compiler, sizeof m.compiler, "%s", compiler());
   find_processor(m.processor, sizeof m.processor);
-  strftime(m.date, sizeof m.date, "%Y-%m-%d", gmtime_r(&now, &day));
-  double loads[1] = {NAN};
-  m.load = getloadavg(loads, 1) == 1 ? loads[0] : NAN;
+  strftime(m.date, sizeof m.date, "%Y-%m-%d", gmtime(&now));
+  m.load = system_load();
   clean(m.commit), clean(m.compiler), clean(m.processor);
   return m;
 }

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 
 enum { MAX_POINTS = 4096 };
 

@@ -4,9 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fault.h"
+#include "base/system.h"
 #include "chart/drawing.h"
 #include "chart/stability_map.h"
-#include "render/fault.h"
 
 /* By outcome: colours that are distinct for all kinds of colour vision, also in greyscale. */
 static const unsigned COLOURS[] = {0x56b4e9, 0xf0c430, 0x40302c, 0xffffff};
@@ -141,12 +142,12 @@ sbf_status chart_map_draw(
   if (!chart_folder_file(folder, name, path, sizeof path) || strpbrk(path, "'\n"))
     return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, name,
         "gnuplot takes no path with quotes or ends of line in it: name another folder");
-  FILE *memory = open_memstream(&script, &size);
+  system_memory_stream stream;
+  FILE *memory = system_memory_stream_open(&stream);
   if (memory) write_script(memory, map, machine, path);
-  bool good = memory && !ferror(memory);
-  if (memory) good = fclose(memory) == 0 && good;
-  sbf_status status = good ? chart_gnuplot(script, size, name, error)
-                           : fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a drawing");
+  script = system_memory_stream_close(&stream, &size);
+  sbf_status status = script ? chart_gnuplot(script, size, name, error)
+                             : fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a drawing");
   free(script);
   return status;
 }

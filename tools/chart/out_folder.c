@@ -1,6 +1,5 @@
 #include "chart/out_folder.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
+#include "base/folder.h"
+#include "base/system.h"
 
 enum { MAX_PATH = 4096 };
 
@@ -26,26 +27,26 @@ static void parent_of(const char *path, char *to, size_t size) {
 }
 
 sbf_status chart_check_writable(const char *path, sbf_diagnostic *error) {
-  struct stat is;
   char parent[MAX_PATH];
   if (!*path || strlen(path) > sizeof parent - 8)
     return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "this is no path to write to");
   parent_of(path, parent, sizeof parent);
-  if (stat(parent, &is) != 0 || !S_ISDIR(is.st_mode))
+  if (!system_is_folder(parent, true))
     return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path,
         "there is no folder '%s' to make this in: make it first", parent);
-  if (access(parent, W_OK | X_OK) != 0) return cannot(error, parent, "this folder cannot be written to");
+  if (!system_can_write_folder(parent)) return cannot(error, parent, "this folder cannot be written to");
   return SBF_OK;
 }
 
 sbf_status chart_folder_check(const char *path, sbf_diagnostic *error) {
   struct stat is;
+  bool exists = stat(path, &is) == 0;
   if (!*path || strlen(path) > MAX_PATH - 8)
     return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "this is no path for a folder");
-  if (stat(path, &is) == 0 && !S_ISDIR(is.st_mode))
+  if (exists && !S_ISDIR(is.st_mode))
     return fault_set_file(
         error, SBF_CODE_IO_CANNOT_WRITE, path, "there is a file of that name: name a folder");
-  if (stat(path, &is) == 0 && access(path, W_OK | X_OK) != 0)
+  if (exists && !system_can_write_folder(path))
     return cannot(error, path, "this folder cannot be written to");
   return chart_check_writable(path, error);
 }
@@ -56,7 +57,8 @@ sbf_status chart_folder_begin(chart_folder *folder, const char *path, sbf_diagno
   while (length > 1 && path[length - 1] == '/') length--;
   snprintf(folder->final_path, sizeof folder->final_path, "%.*s", (int)length, path);
   snprintf(folder->temporary, sizeof folder->temporary, "%s.XXXXXX", folder->final_path);
-  if (!mkdtemp(folder->temporary)) return cannot(error, folder->temporary, "this folder cannot be made");
+  if (!system_make_unique_folder(folder->temporary))
+    return cannot(error, folder->temporary, "this folder cannot be made");
   folder->open = true;
   return SBF_OK;
 }
@@ -67,12 +69,11 @@ bool chart_folder_file(const chart_folder *folder, const char *name, char *path,
 
 /* Calls `act` for every file in the temporary folder until it returns false. */
 static bool each_file(const chart_folder *folder, bool (*act)(const chart_folder *folder, const char *name)) {
-  DIR *listing = opendir(folder->temporary);
-  bool good = listing != NULL;
-  for (struct dirent *entry; good && (entry = readdir(listing)) != NULL;)
-    if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
-      good = act(folder, entry->d_name);
-  if (listing) closedir(listing);
+  folder_names names;
+  if (!folder_list(folder->temporary, &names)) return false;
+  bool good = true;
+  for (size_t i = 0; good && i < names.count; i++) good = act(folder, names.at[i]);
+  folder_names_free(&names);
   return good;
 }
 
@@ -82,7 +83,8 @@ static bool join(char to[4608], const char *folder, const char *name) {
 
 static bool move_one(const chart_folder *folder, const char *name) {
   char from[4608], to[4608];
-  return join(from, folder->temporary, name) && join(to, folder->final_path, name) && rename(from, to) == 0;
+  return join(from, folder->temporary, name) && join(to, folder->final_path, name) &&
+         system_replace_file(from, to);
 }
 
 static bool delete_one(const chart_folder *folder, const char *name) {
@@ -91,9 +93,6 @@ static bool delete_one(const chart_folder *folder, const char *name) {
 }
 
 sbf_status chart_folder_commit(chart_folder *folder, sbf_diagnostic *error) {
-  mode_t mask = umask(0);
-  umask(mask);
-  chmod(folder->temporary, 0777 & ~mask);                   /* mkdtemp restricts it to its owner */
   if (rename(folder->temporary, folder->final_path) == 0) { /* it did not exist, or was empty */
     folder->open = false;
     return SBF_OK;

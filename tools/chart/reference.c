@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/fault.h"
 #include "chart/network_motion.h"
-#include "render/fault.h"
 
 enum { MIN_SUBSTEPS = 32, MAX_SUBSTEPS = 1024 }; /* relative to the sweep; limit of the runtime */
 static const double TICK_S = 1.0 / 60;

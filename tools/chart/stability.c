@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/fault.h"
 #include "chart/subject.h"
 #include "chart/watched_motion.h"
-#include "render/fault.h"
 
 const char *const chart_outcome_names[] = {"sound", "biased", "dead", "refused"};
 

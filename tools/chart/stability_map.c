@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 
 const chart_map_axis chart_map_axes[] = {{.name = "damping",
                                              .label = "damping ratio",

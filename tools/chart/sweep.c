@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/fault.h"
 #include "chart/reference.h"
 #include "chart/rounds.h"
-#include "render/fault.h"
 
 static const double TICK_S = 1.0 / 60;
 /* Larger path errors, relative to the reference's displacement, count as failures. */

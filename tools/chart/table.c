@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fault.h"
 #include "chart/front.h"
-#include "render/fault.h"
 
 bool chart_table_front(const chart_sheet *sheet, chart_axis axis, bool by_time, bool *on) {
   chart_point *points = calloc(sheet->row_count + 1, sizeof *points);

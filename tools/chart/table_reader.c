@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 
 enum { MAX_COLUMNS = 64, MAX_ROUNDS = 10000 };
 
@@ -48,11 +48,30 @@ static void table_close(table *t) {
   free(t->head_text), free(t->line);
 }
 
+/* Reads a line, with its end, into memory that grows; false at the end of the file. */
+static bool read_line(FILE *file, char **line, size_t *capacity) {
+  size_t length = 0;
+  int c = EOF;
+  while (c != '\n' && (c = getc(file)) != EOF) {
+    if (length + 2 > *capacity) {
+      size_t more = 2 * *capacity + 256;
+      char *grown = realloc(*line, more);
+      if (!grown) return false;
+      *line = grown;
+      *capacity = more;
+    }
+    (*line)[length++] = (char)c;
+  }
+  if (!*line || !length) return false;
+  (*line)[length] = 0;
+  return true;
+}
+
 static sbf_status table_open(table *t, const char *path, sbf_diagnostic *error) {
   *t = (table){.file = fopen(path, "r"), .path = path, .line_number = 1};
   if (!t->file)
     return fault_set_file(error, SBF_CODE_IO_CANNOT_READ, path, "this table cannot be opened: is it there?");
-  if (getline(&t->head_text, &t->header_capacity, t->file) <= 0) return fault(t, error, "it is empty");
+  if (!read_line(t->file, &t->head_text, &t->header_capacity)) return fault(t, error, "it is empty");
   t->column_count = split(t->head_text, t->heads);
   return SBF_OK;
 }
@@ -60,7 +79,7 @@ static sbf_status table_open(table *t, const char *path, sbf_diagnostic *error) 
 /* Reads the next line's fields; `*some` is false at the end. */
 static sbf_status table_next(table *t, bool *some, sbf_diagnostic *error) {
   t->line_number++;
-  *some = getline(&t->line, &t->capacity, t->file) > 0;
+  *some = read_line(t->file, &t->line, &t->capacity);
   if (*some && split(t->line, t->fields) != t->column_count)
     return fault(t, error, "it has not as many fields as the head has columns");
   return SBF_OK;
@@ -87,7 +106,8 @@ static uint32_t count_of(const table *t, const char *column) {
 }
 
 static void copy_text(const table *t, const char *column, char *to, size_t size) {
-  snprintf(to, size, "%s", text_of(t, column));
+  const char *text = text_of(t, column);
+  snprintf(to, size, "%s", text ? text : "");
 }
 
 static sbf_status check_columns(const table *t, bool of_runs, sbf_diagnostic *error) {

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "render/egl_context.h"
-#include "render/fault.h"
+#include "base/fault.h"
 #include "render/gl_api.h"
+#include "render/gl_context.h"
 
 struct draw_canvas {
   draw_context context;
@@ -130,7 +130,7 @@ sbf_status draw_canvas_open(draw_canvas **opened, uint32_t width, uint32_t heigh
   if (width == 0 || height == 0 || width > DRAW_CANVAS_LARGEST || height > DRAW_CANVAS_LARGEST)
     return fault_set(diagnostic, SBF_CODE_BAD_CALL, "a picture of %ux%u pixels: each side may have 1 to %d",
         (unsigned)width, (unsigned)height, DRAW_CANVAS_LARGEST);
-  sbf_status status = draw_egl_context(&context, diagnostic);
+  sbf_status status = draw_gl_context(&context, diagnostic);
   return status == SBF_OK ? draw_canvas_open_in(opened, &context, width, height, quality, diagnostic)
                           : status;
 }

@@ -1,6 +1,6 @@
 #include "render/layers.h"
 
-#include "render/fault.h"
+#include "base/fault.h"
 #include "render/light_maps.h"
 
 static bool make_line_layer(layer_set *set, const gl_api *gl) {

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/child_pipe.h"
-#include "render/fault.h"
+#include "base/child_pipe.h"
+#include "base/fault.h"
+#include "base/output_file.h"
 #include "render/movie_check.h"
-#include "render/output_file.h"
 
 struct draw_movie {
   child_pipe child;
@@ -72,8 +72,7 @@ static int start(draw_movie *movie, const draw_movie_options *options, const cha
   for (size_t i = 0; i < own_count[options->kind]; i++) arguments[count++] = own[options->kind][i];
   arguments[count++] = file;
   arguments[count] = NULL;
-  /* posix_spawn takes char *const * for compatibility; it does not modify the strings. */
-  return child_pipe_start(&movie->child, (char *const *)(uintptr_t)arguments);
+  return child_pipe_start(&movie->child, arguments, false);
 }
 
 sbf_status draw_movie_open(

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 #include "render/frame_block.h"
 #include "render/image_textures.h"
 #include "render/layers.h"
@@ -317,11 +317,11 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   paint_lines(painter, gl, scene, &scene->painted.overlay, 0, 1);
   gl->Disable(GL_BLEND);
 }
-
+/* Bounds of the ground, and its lowest height near the casters. */
 /* Bounds of the ground, and its lowest height near the casters. */
 static float measure_ground(const draw_scene *scene, const box3 *casters, box3 *ground) {
   const sbf_vec3 *at = scene->ground.positions.at;
-  box3 near = box3_empty();
+  box3 around = box3_empty();
   if (scene->has_floor) {
     box3_add(ground, v3(0, scene->floor_height, 0));
     return scene->floor_height;
@@ -331,9 +331,9 @@ static float measure_ground(const draw_scene *scene, const box3 *casters, box3 *
     box3_add(ground, at[i]);
     if (at[i].x > casters->min.x - reach.x && at[i].x < casters->max.x + reach.x &&
         at[i].z > casters->min.z - reach.z && at[i].z < casters->max.z + reach.z)
-      box3_add(&near, at[i]);
+      box3_add(&around, at[i]);
   }
-  return box3_is_empty(&near) ? ground->min.y : near.min.y;
+  return box3_is_empty(&around) ? ground->min.y : around.min.y;
 }
 
 /* Visible radius of the ground: six times the picture's height, but not up to its border. */

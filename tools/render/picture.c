@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/fault.h"
-#include "render/output_file.h"
+#include "base/fault.h"
+#include "base/output_file.h"
+#include "base/system.h"
 
 /* libpng would print a line of its own before ours. */
 static void jump(png_structp png, png_const_charp message) {
@@ -60,13 +61,12 @@ sbf_status draw_picture_write_png(
 
 sbf_status draw_picture_encode_png(const uint8_t *rgb, uint32_t width, uint32_t height, uint8_t **png,
     size_t *size, sbf_diagnostic *diagnostic) {
-  char *bytes = NULL;
-  FILE *file = open_memstream(&bytes, size);
+  system_memory_stream stream;
+  FILE *file = system_memory_stream_open(&stream);
   bool good = file && encode(file, rgb, width, height);
-  if (file && fclose(file) != 0) good = false;
-  *png = (uint8_t *)bytes;
-  if (good) return SBF_OK;
-  free(bytes);
+  *png = (uint8_t *)system_memory_stream_close(&stream, size);
+  if (good && *png) return SBF_OK;
+  free(*png);
   *png = NULL;
   return fault_set(diagnostic, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a picture");
 }

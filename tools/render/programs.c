@@ -1,6 +1,6 @@
 #include "render/programs.h"
 
-#include "render/fault.h"
+#include "base/fault.h"
 #include "render/shader_texts.h"
 
 static GLuint compile(const gl_api *gl, GLenum stage, const char *const included[2], const char *text,

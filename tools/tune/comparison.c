@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 #include "sbfmt/mechanics.h"
 
 const chart_drive tune_harsher_drive = {.speed = 0.5,

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/fault.h"
 #include "chart/rounds.h"
-#include "render/fault.h"
 
 /* Drives: the one for tuning, and another. The reference runs with one and two times its required
  * substeps, and 4 times if it is refined. */

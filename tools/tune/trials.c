@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/fault.h"
 #include "chart/rounds.h"
-#include "render/fault.h"
 #include "sbrun/detail.h"
 
 /* Timed ticks of the walk. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 
 static const char ID[] = "tune";
 

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/fault.h"
 #include "chart/subject.h"
-#include "render/fault.h"
 #include "sbfmt/build.h"
 
 enum { ALL_REFERENCE = 12000, MIN_REFERENCE = 960, MAX_REFERENCE = 4000, MIN_SIZE = 48 };

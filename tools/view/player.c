@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 #include "sbrun/rigid.h"
 
 static const float GRAVITY = 9.80665f;

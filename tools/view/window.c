@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 
 static gl_function find_function(const char *name, void *user) {
   void *symbol = ((window *)user)->sdl.GL_GetProcAddress(name);

@@ -20,8 +20,11 @@ from ctypes import POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_flo
 from .messages import SEVERITIES, Cancelled, Diagnostic, Error
 
 NAME = "sbfmt-interchange"
+# This system, as Blender names platforms; an add-on has a folder of libraries for each.
+PLATFORM = "-".join(({"Darwin": "macos"}.get(platform.system(), platform.system().lower()),
+                     {"x86_64": "x64", "amd64": "x64", "aarch64": "arm64"}.get(platform.machine().lower(), platform.machine().lower())))
 FOLDERS = (os.path.dirname(os.path.abspath(__file__)),
-           os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+           os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", PLATFORM))
 OK, BAD_INPUT, FAILED = range(3)
 
 

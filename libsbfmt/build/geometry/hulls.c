@@ -7,6 +7,7 @@
 
 #include <libqhull_r/qhull_ra.h>
 
+#include "base/file.h"
 #include "mechanics/polygon.h"
 
 static const double flat_fraction = 1e-4;
@@ -153,7 +154,7 @@ sbfi_hull_outcome sbfi_hull_make(
     coordinates[3 * (size_t)i + 2] = points[i].z;
   }
   /* qhull writes remarks about the input to the caller's file; only its result matters. */
-  FILE *remarks = tmpfile();
+  FILE *remarks = sbfi_file_discard();
   char command[] = "qhull Pp";
   qh_zero(qh, remarks ? remarks : stderr);
   int trouble =

@@ -48,11 +48,6 @@ static sbfi_matrix matrix_to_asset(const sbfi_scene *scene, const sbf_convert_op
   return m;
 }
 
-static const char *file_name(const char *path) {
-  const char *slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
-}
-
 static sbf_status hash_file(sbfi_conversion *c, const char *path, char text[SBFI_SHA256_TEXT_SIZE]) {
   sbfi_file_content content;
   sbf_status status = sbfi_file_map(path, 0, &c->scratch.allocator, &content, c->error);
@@ -77,7 +72,7 @@ static sbf_status describe_sources(sbfi_conversion *c) {
     char hex[SBFI_SHA256_TEXT_SIZE];
     sbf_status status = hash_file(c, scenes[i]->path, hex);
     if (status != SBF_OK) return status;
-    sources[i].path = sbf_asset_copy_text(c->asset, file_name(scenes[i]->file));
+    sources[i].path = sbf_asset_copy_text(c->asset, sbfi_path_name(scenes[i]->file));
     sources[i].sha256 = sbf_asset_copy_text(c->asset, hex);
     if (!sources[i].path || !sources[i].sha256) return sbfi_convert_no_memory(c);
   }

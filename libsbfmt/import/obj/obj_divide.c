@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/diagnostic.h"
+#include "base/file.h"
 #include "import/obj/obj.h"
 
 /* Indices of a list that each mesh uses, ascending: those of mesh m are items[starts[m]] to items[starts[m +
@@ -40,8 +41,7 @@ static uint32_t run_end(const division *d, size_t run) {
 }
 
 static sbfi_span file_stem(const char *path) {
-  const char *slash = strrchr(path, '/');
-  const char *first = slash ? slash + 1 : path, *dot = strrchr(first, '.');
+  const char *first = sbfi_path_name(path), *dot = strrchr(first, '.');
   return (sbfi_span){first, dot && dot > first ? (size_t)(dot - first) : strlen(first)};
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/diagnostic.h"
+#include "base/file.h"
 #include "import/scene/assembly.h"
 
 /* Rows: which axis of the file becomes +X, +Y and +Z. FBX states them as up, front and right ("coord"). */
@@ -55,8 +56,7 @@ static bool is_invented_name(const char *name) {
 
 /* Names an unnamed object after its data, or after the file. */
 static bool name_objects(sbfi_assembly *a) {
-  const char *path = a->scene->file, *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
-  const char *dot = strrchr(file, '.');
+  const char *file = sbfi_path_name(a->scene->file), *dot = strrchr(file, '.');
   sbfi_span stem = {file, dot && dot > file ? (size_t)(dot - file) : strlen(file)};
   for (uint32_t i = 0; i < a->scene->mesh_count; i++) {
     const sbfi_scene_mesh *mesh = &a->scene->meshes[i];

@@ -42,7 +42,7 @@ static sbf_status find_helper(const char *stated, char *to, size_t size, sbf_dia
   }
   if (stated && *stated) {
     /* Some systems would search PATH for a bare name: prefixes the current folder. */
-    int length = snprintf(to, size, "%s%s", strchr(stated, '/') ? "" : "./", stated);
+    int length = snprintf(to, size, "%s%s", sbfi_path_name(stated) == stated ? "./" : "", stated);
     if (length < 0 || (size_t)length >= size || !sbfi_is_program(to))
       return helper_missing(error, stated, from);
     return SBF_OK;
@@ -153,7 +153,7 @@ static sbf_status check_input(const char *path, const char **format, const sbfi_
 
 /* Lower case extension of the name, "" if there is none. */
 static const char *format_of(sbfi_scene *scene, const char *path) {
-  const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+  const char *dot = strrchr(sbfi_path_name(path), '.');
   char *format = (char *)sbfi_scene_string(scene, sbfi_span_of(dot ? dot + 1 : ""));
   for (char *c = format; c && *c; c++)
     if (*c >= 'A' && *c <= 'Z') *c = (char)(*c | 0x20);

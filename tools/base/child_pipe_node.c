@@ -1,10 +1,10 @@
 /* WebAssembly under Node.js has no pipes to programs. */
 #include <errno.h>
 
-#include "render/child_pipe.h"
+#include "base/child_pipe.h"
 
-int child_pipe_start(child_pipe *child, char *const *arguments) {
-  (void)arguments;
+int child_pipe_start(child_pipe *child, const char *const *arguments, bool keeps_output) {
+  (void)arguments, (void)keeps_output;
   *child = (child_pipe){.input = -1};
   return ENOSYS;
 }
@@ -14,10 +14,9 @@ bool child_pipe_write(child_pipe *child, const void *bytes, size_t size) {
   return false;
 }
 
-bool child_pipe_finish(child_pipe *child, char *said, size_t said_size) {
+int child_pipe_wait(child_pipe *child) {
   (void)child;
-  if (said_size) said[0] = 0;
-  return false;
+  return -1;
 }
 
 void child_pipe_kill(child_pipe *child) {

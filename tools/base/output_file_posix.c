@@ -1,4 +1,4 @@
-#include "render/output_file.h"
+#include "base/output_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 
 /* A signal handler only has static data: the file to delete and the process to kill. Set before the
  * handlers are installed, and cleared after their removal. */
@@ -53,8 +53,8 @@ static void unwatch_signals(void) {
   is_busy = false;
 }
 
-void output_file_tie(int process) {
-  pending_process = process;
+void output_file_tie(intptr_t process) {
+  pending_process = (pid_t)process;
 }
 
 static void release(output_file *output) {

@@ -1,5 +1,3 @@
-/* Results of child processes, for every system that has signals. */
-#include <signal.h>
 #include <stdio.h>
 
 #include "base/process.h"
@@ -26,35 +24,13 @@ void sbfi_process_result_free(sbfi_process_result *result) {
   *result = (sbfi_process_result){.allocator = result->allocator};
 }
 
-static const char *signal_meaning(int number) {
-  switch (number) {
-  case SIGABRT:
-    return " (it aborted)";
-  case SIGSEGV:
-    return " (it accessed memory that it does not own)";
-  case SIGBUS:
-    return " (it accessed memory that does not exist)";
-  case SIGFPE:
-    return " (an arithmetic error)";
-  case SIGILL:
-    return " (an illegal instruction)";
-  case SIGKILL:
-    return " (it was killed, for example by the system when memory ran out)";
-  case SIGTERM:
-  case SIGINT:
-    return " (it was asked to stop)";
-  default:
-    return "";
-  }
-}
-
 void sbfi_process_describe(const sbfi_process_result *result, char *to, size_t size) {
   switch (result->end) {
   case SBFI_PROCESS_EXITED:
     snprintf(to, size, "ended with status %d", result->exit_status);
     break;
   case SBFI_PROCESS_KILLED:
-    snprintf(to, size, "stopped by signal %d%s", result->signal, signal_meaning(result->signal));
+    sbfi_process_describe_kill(result->signal, to, size);
     break;
   case SBFI_PROCESS_TIMED_OUT:
     snprintf(to, size, "stopped at the time limit");

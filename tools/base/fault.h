@@ -1,6 +1,6 @@
-/* Error reports of drawing. */
-#ifndef RENDER_FAULT_H
-#define RENDER_FAULT_H
+/* Error reports of the program and its parts. */
+#ifndef BASE_FAULT_H
+#define BASE_FAULT_H
 
 #include "sbfmt/codes.h"
 

@@ -1,4 +1,4 @@
-#include "render/fault.h"
+#include "base/fault.h"
 
 #include <stdarg.h>
 #include <stdio.h>

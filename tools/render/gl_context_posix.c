@@ -1,15 +1,14 @@
-#include "render/egl_context.h"
+#include "render/gl_context.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-#include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
+#include "base/system.h"
 
-/* libEGL is loaded at run time and stays loaded: Mesa has threads and thread-local storage of its own, and
- * unloading it has crashed programs at exit. */
+/* libEGL is loaded at run time. */
 #define EGL_MEMBERS(X)                                                                                       \
   X(PFNEGLGETPROCADDRESSPROC, GetProcAddress)                                                                \
   X(PFNEGLQUERYSTRINGPROC, QueryString)                                                                      \
@@ -34,21 +33,13 @@ typedef struct egl_context {
   EGLContext context;
 } egl_context;
 
-static gl_function symbol_of(void *library, const char *name) {
-  /* POSIX guarantees this conversion; ISO C has no cast between data and function pointers. */
-  void *symbol = dlsym(library, name);
-  gl_function function = NULL;
-  if (symbol) memcpy(&function, &symbol, sizeof function);
-  return function;
-}
-
 static sbf_status load_egl(egl_api *egl, sbf_diagnostic *diagnostic) {
-  void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void *library = system_open_library("libEGL.so.1");
   if (!library)
     return fault_set(
         diagnostic, SBF_CODE_NO_OPENGL, "libEGL.so.1 is not on this machine: " DRAW_INSTALL_OPENGL);
 #define EGL_LOAD(type, name)                                                                                 \
-  if (!(egl->name = (type)symbol_of(library, "egl" #name)))                                                  \
+  if (!(egl->name = (type)system_library_function(library, "egl" #name)))                                    \
     return fault_set(diagnostic, SBF_CODE_NO_OPENGL, "libEGL.so.1 has no egl" #name ": " DRAW_INSTALL_OPENGL);
   EGL_MEMBERS(EGL_LOAD)
 #undef EGL_LOAD
@@ -116,7 +107,7 @@ static void close_context(void *user) {
   free(made);
 }
 
-sbf_status draw_egl_context(draw_context *context, sbf_diagnostic *diagnostic) {
+sbf_status draw_gl_context(draw_context *context, sbf_diagnostic *diagnostic) {
   egl_context *made = calloc(1, sizeof *made);
   if (!made) return fault_set(diagnostic, SBF_CODE_OUT_OF_MEMORY, "no memory for a canvas");
   made->display = EGL_NO_DISPLAY, made->context = EGL_NO_CONTEXT;

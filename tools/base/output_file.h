@@ -1,7 +1,7 @@
 /* Writes a file atomically: under another name in the same folder, then renamed. For writers that need a
  * name (ffmpeg) or a stream (libpng). */
-#ifndef RENDER_OUTPUT_FILE_H
-#define RENDER_OUTPUT_FILE_H
+#ifndef BASE_OUTPUT_FILE_H
+#define BASE_OUTPUT_FILE_H
 
 #include "sbfmt/base.h"
 
@@ -18,8 +18,8 @@ typedef struct output_file {
  * time per process: SBF_FAILED for a second. */
 sbf_status output_file_begin(output_file *output, const char *path, sbf_diagnostic *diagnostic);
 
-/* A process that writes the file and is killed together with this one; 0: none any more. */
-void output_file_tie(int process);
+/* A child_pipe's process that writes the file and is killed together with this one; 0: none any more. */
+void output_file_tie(intptr_t process);
 
 sbf_status output_file_commit(output_file *output, sbf_diagnostic *diagnostic); /* ends it in any case */
 void output_file_abandon(output_file *output); /* does nothing if ended or {0} */
