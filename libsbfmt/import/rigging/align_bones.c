@@ -37,10 +37,11 @@ static const double BETTER = 0.02;     /* minimum improvement by a later candida
 static const double NEARNESS = 2;      /* weight of a mean distance against the fraction inside */
 /* minimum extent of the bones as a fraction of the body's longest side, for the stated transform */
 static const double MIN_LONG = 0.6;
-static const double KEPT = 0.85; /* fraction inside from which the stated transform is not a coincidence */
-static const double ODD = 0.15;  /* minimum improvement by an unusual scale or offset with the same axes */
-static const double POSED = 0.1; /* minimum improvement by a rarer rotation if limbs are posed differently */
-static const double REACH = 0.3; /* maximum deficit of a candidate before its scale and offset are refined */
+static const double KEPT = 0.85;  /* fraction inside from which the stated transform is not a coincidence */
+static const double ODD = 0.15;   /* minimum improvement by an unusual scale or offset with the same axes */
+static const double MOVED = 0.05; /* minimum improvement by an offset that was searched for */
+static const double POSED = 0.1;  /* minimum improvement by a rarer rotation if limbs are posed differently */
+static const double REACH = 0.3;  /* maximum deficit of a candidate before its scale and offset are refined */
 
 typedef struct candidate {
   sbfi_matrix m;
@@ -290,7 +291,7 @@ static void choose(search *s) {
     candidate better = refined(s, *plain);
     if (better.fraction < GOOD) better = *plain;
     candidate moved = fits ? better : best_offset(s, plain);
-    if (moved.score >= better.score + (is_plain(s, &better.m) ? ODD : BETTER)) better = moved;
+    if (moved.score >= better.score + (is_plain(s, &better.m) ? ODD : MOVED)) better = moved;
     if (better.score < max + RARE[rarity].min_better + (rarity && better.fraction < GOOD ? POSED : 0))
       continue;
     max = better.score;
