@@ -184,11 +184,13 @@ static candidate refined(const search *s, candidate from) {
   return from;
 }
 
-/* Steps of a descent, as fractions of the bones' size; maximum number of rounds of a step. */
+/* Steps of a descent, as fractions of the bones' size; maximum number of rounds of a step, and of rotations
+ * whose offset is searched for. */
 static const double FIRST_STEP = 0.16, LAST_STEP = 0.005;
-enum { MAX_ROUNDS = 6 };
+enum { MAX_ROUNDS = 6, MAX_SEARCHED = 3 };
 /* Limits of the ratio of the input's length to that of its bones. */
 static const double MIN_RATIO = 0.7, MAX_RATIO = 1.6;
+static const double NEAR_SCALE = 0.3; /* relative difference of a usual scale from the best one */
 
 /* Moved along an axis (0 to 2), or scaled about the bones' middle (3), by a fraction of the bones' size. */
 static sbfi_matrix stepped(const search *s, const sbfi_matrix *m, int axis, double step) {
@@ -233,6 +235,7 @@ static candidate best_offset(const search *s, const candidate *plain) {
     m = sbfi_similarity_scaled(&m, scale, sbfi_d3_sub(middle, sbfi_similarity_apply(&m, center)));
     candidate here = descended(s, evaluate(s, &m, -INFINITY), false);
     if (here.score > best.score) best = here;
+    if (fabs(scale / found - 1) > NEAR_SCALE) continue;
     m = stepped(s, &unusual.m, 3, scale / found - 1);
     here = descended(s, evaluate(s, &m, -INFINITY), false);
     if (here.score > best.score) best = here;
@@ -278,6 +281,13 @@ static bool fits_plainly(const search *s) {
   return best->fraction >= CERTAIN && is_plain(s, &best->m);
 }
 
+/* Number of rotations whose coarse candidate is better. */
+static uint32_t count_better(const search *s, const candidate *plain) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < ROTATIONS; i++) count += s->of_rotation[i].score > plain->score;
+  return count;
+}
+
 /* Selects the best of all rotations, each with its best scale and offset. A more common rotation stays
  * unless another is clearly better, as around straight chains of bones; the same holds for a usual unit
  * and offset. */
@@ -290,7 +300,7 @@ static void choose(search *s) {
     if (!(plain->score > max - REACH) || rarity_of(s, &plain->m) != rarity) continue;
     candidate better = refined(s, *plain);
     if (better.fraction < GOOD) better = *plain;
-    candidate moved = fits ? better : best_offset(s, plain);
+    candidate moved = fits || count_better(s, plain) >= MAX_SEARCHED ? better : best_offset(s, plain);
     if (moved.score >= better.score + (is_plain(s, &better.m) ? ODD : MOVED)) better = moved;
     if (better.score < max + RARE[rarity].min_better + (rarity && better.fraction < GOOD ? POSED : 0))
       continue;
