@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Measures how well an OBJ gets the weights of a rig with a mesh. Case b: the same mesh, matched by position. Case c: a similar mesh.
-Case p: limbs in another pose. Case bones: a rig without a mesh, limbs in another pose.
+Case d: a rig without a mesh. Case p: limbs in another pose. Case bones: a rig without a mesh, limbs in another pose.
 
 Every rigged file is exported as OBJ, changed as other programs would write it (tests/e2e/obj_variants.py), and converted with the file
 as its rig. The file's own conversion is the reference. Prints CSV. The targets:
@@ -10,9 +10,11 @@ as its rig. The file's own conversion is the reference. Prints CSV. The targets:
              and springs and tetrahedra within 5 %
     case c   the skin, posed by the original's own walk, within 1 % of the longest side of the original's at 99 % of
              points; another line for the poses of its clips, which bend farther
+    case d   the skin, posed by its clips, against the original's, in % of the longest side: rms <= 0.6 (median of files),
+             <= 1.2 (nine tenths); points over 2 %: median <= 2 %; the same gait and legs in 95 %
 
     ./run bench rigging
-    SBFMT_BUILD_DIR=build/release python3 -B bench/bench_rigging.py [b] [c] [p] [bones] [FILE.glb ...]
+    SBFMT_BUILD_DIR=build/release python3 -B bench/bench_rigging.py [b] [c] [d] [p] [bones] [FILE.glb ...]
 """
 
 import glob
@@ -131,6 +133,42 @@ def measure_like(original, folder, rows):
         print(f"c,{original.name},{name},{len(obj.points)},,,,,,{100 * walked:.3f},{100 * posed:.3f},", flush=True)
 
 
+def bare_meshes(obj):
+    yield "as exported", obj, None
+    yield "centimetres; Z up; 6 decimals", variants.moved(obj, 0.01, Z_UP), 6
+    yield "inches; faces +X; elsewhere; shuffled", variants.shuffled(variants.moved(obj, 0.0254, ("z", "y", "-x"), (60, 5, -90))), 6
+
+
+def measure_bare(original, folder, rows):
+    """Weights computed from the bones alone."""
+    source, out, rig = (os.path.join(folder, name) for name in ("in.obj", "out.sbf", "bones.glb"))
+    posed_inputs.write_rest_bones(original.bundle, rig)
+    stems = {posed_inputs.side_of(name)[0] for name in original.bone_names}
+    motions = posed_inputs.motions_to_compare(original, {stem: ("x", 15) for stem in stems})
+    gait = json.loads(call("info", os.path.join(folder, "whole.sbf"), "--format", "json").out)["gait"]
+    for name, obj, digits in bare_meshes(original.obj):
+        variants.write(obj, source, digits)
+        start = f"d,{original.name},{name},{len(obj.points)}"
+        try:
+            time = convert(source, rig, out, "--no-build", "--budget", "none")
+        except RuntimeError as error:
+            print(f"{start},,,,,,,,{error}".replace("\n", " "), flush=True)
+            rows.append((1.0, 1.0, False))
+            continue
+        errors = posed_inputs.skin_errors(original, obj, out, motions)
+        rms = (sum(e * e for e in errors) / max(len(errors), 1)) ** 0.5
+        over = sum(e > 0.02 for e in errors) / max(len(errors), 1)
+        same = json.loads(call("info", out, "--format", "json").out)["gait"] == gait
+        rows.append((rms, over, same))
+        print(f"{start},,{'yes' if same else 'no'},,{time:.2f},,{100 * rms:.3f},{100 * over:.2f},", flush=True)
+
+
+def print_bare(rows):
+    rms, over = (sorted(row[k] for row in rows) for k in range(2))
+    print(f"# d: rms median {100 * statistics.median(rms):.2f} %, nine tenths {100 * rms[int(0.9 * len(rms))]:.2f} %; points over 2 %, "
+          f"median {100 * statistics.median(over):.2f} %; the same gait and legs in {sum(row[2] for row in rows)} of {len(rows)}")
+
+
 def posed_meshes(original, turns):
     obj, motions = posed_inputs.pose_of(original, turns)
     yield "posed", obj, motions
@@ -189,11 +227,11 @@ def default_files():
 
 
 def main():
-    same, like = [], []
+    same, like, bare = [], [], []
     print("case,file,variant,points,equal_percent,same_kind,distance,time,same_bundle,p99_walk_percent,p99_clip_percent,error")
-    known = ("b", "c", "p", "bones")
+    known = ("b", "c", "d", "p", "bones")
     cases, picked = [a for a in sys.argv[1:] if a in known] or ["b", "c", "p"], [a for a in sys.argv[1:] if a not in known]
-    for path in (picked or default_files()) if {"b", "c"} & set(cases) else []:
+    for path in (picked or default_files()) if {"b", "c", "d"} & set(cases) else []:
         with tempfile.TemporaryDirectory() as folder:
             try:
                 original = Original(path, folder)
@@ -205,6 +243,10 @@ def main():
                 measure_same(original, folder, same)
             if "c" in cases:
                 measure_like(original, folder, like)
+            if "d" in cases:
+                measure_bare(original, folder, bare)
+    if bare:
+        print_bare(bare)
     if same:
         print(f"# b: equal at 99.9 % of points in {sum(r[0] >= 0.999 for r in same)} of {len(same)}, the same kind in "
               f"{sum(r[1] for r in same)}, distance within 2 % in {sum(abs(r[2] - 1) <= 0.02 for r in same)}, median "

@@ -199,6 +199,36 @@ START_TEST(vertices_without_soft_bones_keep_their_weights)
 }
 END_TEST
 
+/* Points of a scan are noisy: some of its triangles are thin, and contract without end. */
+START_TEST(a_noisy_scan_takes_few_checks)
+{
+  sbfi_arena arena;
+  sbfi_skin_union skin;
+  sbfi_topology t;
+  uint32_t left, chosen_count, random = 1;
+  uint8_t chosen[1];
+  sbfi_arena_init(&arena, NULL, 0);
+  const skinned_limb of = {.bones = 2, .sides = 256, .rings_a_bone = 520, .radius = 0.2f};
+  sbf_asset *asset = skinned_limb_make(&of);
+  ck_assert(sbfi_skins_choose(asset, chosen, &chosen_count, &arena));
+  ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
+  float *coordinates = (float *)(uintptr_t)skin.mesh.positions.at;
+  for (uint32_t i = 0; i < 3 * skin.mesh.positions.count; i++) {
+    random = 1664525u * random + 1013904223u;
+    coordinates[i] += 0.0006f * ((float)(random >> 8) / (float)(1 << 23) - 1);
+  }
+  ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
+  const sbfi_skin_union authored = skin;
+  uint64_t checks;
+  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, NULL, &left, &checks, &arena));
+  uint32_t triangles = 2 * skin.mesh.polygon_sizes.count;
+  ck_assert_uint_lt(checks, UINT64_C(16) * triangles); /* without a limit of contractions 34 */
+  ck_assert_uint_lt(left, triangles / 400);
+  sbfi_arena_free(&arena);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 /* 3,000 bones on a skin of 24,000 points: memory grows with the number of influences, not with bones times
  * points. */
 START_TEST(memory_does_not_grow_with_bones_times_points)
@@ -258,6 +288,7 @@ static Suite *suite(void) {
   tcase_add_test(c, the_order_of_polygons_changes_nothing);
   tcase_add_test(c, fixed_points_keep_their_weights_while_others_can_change);
   tcase_add_test(c, vertices_without_soft_bones_keep_their_weights);
+  tcase_add_test(c, a_noisy_scan_takes_few_checks);
   tcase_add_test(c, memory_does_not_grow_with_bones_times_points);
   tcase_add_test(c, bones_far_from_the_skin_stop_the_iteration_early);
   suite_add_tcase(s, c);

@@ -3,7 +3,7 @@
 import math
 import os
 
-from bundle_file import Bundle, apply, matrix_of, product
+from bundle_file import Bundle, apply, inverse, matrix_of, product
 from rigged_weights import clip_motions, posed, weights_by_vertex
 from sbfmt_program import ROOT, shared
 from skinned_glb import SkinnedGlb
@@ -135,4 +135,14 @@ def write_bones(path, bones_path):
         node.pop("skin", None)
     file.json.pop("meshes", None)
     file.json.pop("skins", None)
+    file.write(bones_path)
+
+
+def write_rest_bones(bundle_path, bones_path):
+    """The bones of a bundle at rest, where their skin was bound, as a binary glTF without meshes."""
+    bundle, file = Bundle(bundle_path), SkinnedGlb()
+    frame, nodes = file.node("Armature"), []
+    for name, parent, rest in zip(bundle.bone_names(), bundle.parents, bundle.rest):
+        local = rest if parent is None else product(inverse(bundle.rest[parent]), rest)
+        nodes.append(file.node(name, frame if parent is None else nodes[parent], local))
     file.write(bones_path)

@@ -43,7 +43,7 @@ class Original:
         self.obj = obj_variants.read(self.obj_path)
         self.weights, self.places = [], []
         bundle = Bundle(self.bundle)
-        names = bundle.bone_names()
+        self.bone_names = names = bundle.bone_names()
         for mesh in bundle.meshes:  # in the order in which export writes them
             self.places += bundle.positions(mesh)
             if mesh.find("skin") is not None:

@@ -108,6 +108,23 @@ class PosedInputs(ProgramTest):
             self.assertNotIn("has another pose", self.good(*call).err)
             self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), motions), 1e-4)
 
+    def test_bones_alone_are_found_inside_an_input_elsewhere(self):
+        """Neither the middle of the bones nor the lowest one says where the body is: only the shape does."""
+        for name, unit, axes in (("examples/calf/calf.glb", 1, ("x", "y", "z")), ("examples/pup/pup.glb", 0.0254, ("z", "y", "-x"))):
+            offset = [x / unit for x in (1.5, 0.125, -2.2)]
+            call, original, _, _ = self.convert_bones(name, {}, lambda o, u=unit, a=axes, by=offset: variants.moved(o, u, a, by))
+            printed = self.good(*call).err
+            self.assertIn("in inches" if unit != 1 else "aligned with the rig: moved by", printed)
+            self.assertNotIn("scaled by" if unit == 1 else "RIG_OTHER_MESH", printed)
+            found = Bundle(self.path("out.sbf"))
+            places = [p for mesh in found.meshes for p in found.positions(mesh)]
+            shift = [places[0][k] - original.places[0][k] for k in range(3)]  # the asset stands elsewhere
+            joints = dict(zip(found.bone_names(), found.rest))
+            before = Bundle(original.bundle)
+            for bone, rest in zip(before.bone_names(), before.rest):
+                off = math.dist([joints[bone][k][3] - shift[k] for k in range(3)], [row[3] for row in rest])
+                self.assertLess(off / posed_inputs.longest_side(original), 0.06, bone)
+
     def test_bones_alone_whose_limbs_are_not_found_are_refused(self):
         turns = {"fore_upper": ("x", 90), "hind_upper": ("x", -80)}
         call, *_ = self.convert_bones("examples/calf/calf.glb", turns)

@@ -8,8 +8,8 @@
 
 static const double DEGREE = 0.017453292519943295;
 
-/* A person in an exact T: bones with boxes, fingers on its hands. */
-static void build(sbfi_scene *s, double arm_drop) {
+/* A person in an exact T: bones with boxes, fingers on its hands. Collarbones are as long as upper arms. */
+static void build_with(sbfi_scene *s, double arm_drop, bool has_collarbones) {
   scene_begin(s);
   int32_t hips = scene_node(s, "hips", SBF_NONE, true, 0, 1, 0);
   scene_box(s, scene_node(s, "p", hips, false, 0, 0, 0), 0.15, 0, 0, 0, false);
@@ -24,7 +24,13 @@ static void build(sbfi_scene *s, double arm_drop) {
     scene_box(s, scene_node(s, "p", b, false, 0, 0, 0), 0.06, 0, -0.2, 0, false);
     b = scene_node(s, side > 0 ? "foot.L" : "foot.R", b, true, 0, -0.4, -0.01);
     scene_box(s, scene_node(s, "p", b, false, 0, 0, 0), 0.05, 0, 0, 0.03, false);
-    b = scene_node(s, side > 0 ? "arm.L" : "arm.R", chest, true, 0.2 * side, 0.1, 0);
+    int32_t above = chest;
+    if (has_collarbones) {
+      above = scene_node(s, side > 0 ? "shoulder.L" : "shoulder.R", chest, true, 0.02 * side, 0.1, 0);
+      scene_box(s, scene_node(s, "p", above, false, 0, 0, 0), 0.03, 0.15 * side, 0, 0, false);
+    }
+    b = scene_node(s, side > 0 ? "arm.L" : "arm.R", above, true, (has_collarbones ? 0.3 : 0.2) * side,
+        has_collarbones ? 0 : 0.1, 0);
     scene_box(s, scene_node(s, "p", b, false, 0, 0, 0), 0.05, 0.12 * side, 0, 0, false);
     b = scene_node(
         s, side > 0 ? "elbow.L" : "elbow.R", b, true, 0.28 * side * cos(arm_drop), -0.28 * sin(arm_drop), 0);
@@ -37,6 +43,10 @@ static void build(sbfi_scene *s, double arm_drop) {
       scene_box(s, scene_node(s, "p", b, false, 0, 0, 0), 0.012, 0.015 * side, 0, 0, false);
     }
   }
+}
+
+static void build(sbfi_scene *s, double arm_drop) {
+  build_with(s, arm_drop, false);
 }
 
 static const sbf_pose_key *key_of(const sbf_pose *pose, int32_t bone) {
@@ -85,11 +95,10 @@ static double angle_between(const double a[3], const double b[3]) {
 }
 
 /* Held out by nothing: 70 degrees down, a little ahead, elbows and fingers bent. */
-START_TEST(arms_are_lowered)
-{
+static void assert_arms_are_lowered(bool has_collarbones) {
   sbfi_scene scene;
   converted c;
-  build(&scene, 0);
+  build_with(&scene, 0, has_collarbones);
   scene_end(&scene);
   converted_scene(&c, &scene, &scene, NULL);
   const sbf_asset *a = c.asset;
@@ -118,6 +127,13 @@ START_TEST(arms_are_lowered)
   converted_free(&c);
   sbfi_scene_free(&scene);
 }
+
+START_TEST(arms_are_lowered)
+{ assert_arms_are_lowered(false); }
+END_TEST
+
+START_TEST(arms_after_long_collarbones_are_lowered)
+{ assert_arms_are_lowered(true); }
 END_TEST
 
 /* Arms that hang by 40 degrees as bound stay; they swing all the same. */
@@ -238,6 +254,7 @@ int main(void) {
   Suite *suite = suite_create("rest_pose");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, arms_are_lowered);
+  tcase_add_test(tests, arms_after_long_collarbones_are_lowered);
   tcase_add_test(tests, hanging_arms_are_unchanged);
   tcase_add_test(tests, arms_swing_against_legs);
   tcase_add_test(tests, ears_are_no_arms);

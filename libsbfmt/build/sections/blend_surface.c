@@ -29,8 +29,9 @@ typedef struct work {
   sbfi_blend_surface *s;
   sbfi_arena *arena;
   branches open;
-  uint8_t *pending; /* (triangles) to be checked */
-  uint8_t *fixed;   /* (points) contractions until the point becomes free; 0: it is free */
+  uint8_t *pending;      /* (triangles) to be checked */
+  uint8_t *fixed;        /* (points) contractions until the point becomes free; 0: it is free */
+  uint8_t *contractions; /* (triangles) if their number is limited */
 } work;
 
 static sbfi_d3 axis_of(sbf_quat r, int axis) {
@@ -333,6 +334,27 @@ static uint32_t next_pending(const uint8_t *pending, uint32_t from, uint32_t cou
   return count;
 }
 
+/* Counts the contraction that follows, unless the triangle has had as many as it may. */
+static bool is_given_up(work *w, uint32_t triangle) {
+  if (w->s->max_contractions == 0) return false;
+  if (w->contractions[triangle] == w->s->max_contractions) return true;
+  w->contractions[triangle]++;
+  return false;
+}
+
+/* Counts the triangles that have had all their contractions and still stretch. */
+static bool count_given_up(work *w, uint32_t *left) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; w->s->max_contractions && i < w->s->triangle_count; i++) {
+    double stretch;
+    if (w->pending[i] || w->contractions[i] < w->s->max_contractions) continue;
+    if (!find_stretch(w, i, &stretch)) return false;
+    count += stretch > MAX_STRETCH;
+  }
+  *left = count;
+  return true;
+}
+
 /* Alternates the direction along the surface, so that weights travel along a whole limb in one sweep. */
 static bool sweep_all(work *w, uint32_t *left) {
   uint32_t count = w->s->triangle_count;
@@ -347,6 +369,7 @@ static bool sweep_all(work *w, uint32_t *left) {
       w->s->checks++;
       if (!find_stretch(w, i, &stretch)) return false;
       if (stretch <= MAX_STRETCH) continue;
+      if (is_given_up(w, i)) continue;
       ++*left;
       if (!contract(w, i, stretch)) return false;
       for (int k = 0; k < 3; k++) w->s->changed[w->s->triangles[i][k]] = 1;
@@ -369,10 +392,15 @@ bool sbfi_blend_surface_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_
   *left = 0;
   w.pending = sbfi_arena_allocate(arena, (size_t)surface->triangle_count + 1, 1);
   w.fixed = sbfi_arena_allocate(arena, (size_t)surface->point_count + 1, 1);
-  if (!w.pending || !w.fixed) return false;
+  if (surface->max_contractions)
+    w.contractions = sbfi_arena_allocate(arena, (size_t)surface->triangle_count + 1, 1);
+  if (!w.pending || !w.fixed || (surface->max_contractions && !w.contractions)) return false;
   for (uint32_t p = 0; surface->fixed && p < surface->point_count; p++)
     w.fixed[p] = surface->fixed[p] ? FIXED_CONTRACTIONS : 0;
   for (uint32_t i = 0; i < surface->triangle_count; i++)
     w.pending[i] = is_soft(surface, surface->triangles[i]);
-  return sweep_all(&w, left);
+  uint32_t given_up = 0;
+  if (!sweep_all(&w, left) || !count_given_up(&w, &given_up)) return false;
+  *left += given_up;
+  return true;
 }

@@ -37,8 +37,9 @@ typedef struct sbfi_blend_surface {
   const uint8_t *soft;         /* (bones) whose region should bend well; NULL: all */
   /* (point_count) points that keep their weights as long as others can change; NULL: none */
   const uint8_t *fixed;
-  uint8_t *changed; /* (point_count) receives 1 for changed weights */
-  uint64_t checks;  /* number of triangles that were bent so far: the cost */
+  uint8_t max_contractions; /* of each triangle; 0: any number */
+  uint8_t *changed;         /* (point_count) receives 1 for changed weights */
+  uint64_t checks;          /* number of triangles that were bent so far: the cost */
 } sbfi_blend_surface;
 
 /* Smaller weights are added to the greatest of their point, so that rows stay short when weights spread

@@ -1,6 +1,7 @@
 /* Natural angles for arms that are held out in the bind pose. */
 #include <math.h>
 
+#include "import/convert/propose_limits.h"
 #include "import/gait/named_chains.h"
 #include "motion/quatd.h"
 
@@ -55,6 +56,19 @@ static int32_t thickest_child(const sbfi_rig_view *view, int32_t bone, double *l
   return best;
 }
 
+/* Whether a bone of an arm is a collarbone by its name and that of the next: some are as long as an upper
+ * arm, because they start at the spine. */
+static bool is_collarbone(const sbfi_rig_view *view, int32_t bone) {
+  const sbfi_gait_draft *d = &view->draft;
+  double length;
+  int32_t upper = thickest_child(view, bone, &length);
+  if (upper == SBF_NONE || sbfi_part_by_name(sbfi_draft_bone(d, bone)->name) != SBFI_PART_COLLAR ||
+      sbfi_part_by_name(sbfi_draft_bone(d, upper)->name) != SBFI_PART_SHOULDER)
+    return false;
+  int32_t lower = thickest_child(view, upper, &length);
+  return lower != SBF_NONE && sbfi_part_by_name(sbfi_draft_bone(d, lower)->name) == SBFI_PART_ELBOW;
+}
+
 /* Selects upper arm, forearm and hand: the two consecutive bones below the shoulder with the longest
  * reach. */
 static bool choose_arm(const sbfi_rig_view *view, const sbfi_limb_shape *limb, sbfi_arm_draft *arm) {
@@ -63,6 +77,7 @@ static bool choose_arm(const sbfi_rig_view *view, const sbfi_limb_shape *limb, s
   for (int32_t bone = limb->root; bone != SBF_NONE; bone = thickest_child(view, bone, &one)) {
     int32_t lower = thickest_child(view, bone, &one), hand;
     if (lower == SBF_NONE) break;
+    if (is_collarbone(view, bone)) continue;
     hand = thickest_child(view, lower, &two);
     if (hand == SBF_NONE) {
       if (best > 0) break;

@@ -32,14 +32,16 @@ static const double GOOD = 0.95; /* fraction of the length inside that needs no 
  * maximum ratio of the cost to that without rotations. Radius of a body around its bones as a fraction of
  * its longest side. */
 static const double MIN_ROTATED = 0.85, MAX_UNCOVERED = 0.35, BETTER_ROTATED = 0.85, THICK = 0.15;
-static const double BETTER = 0.02; /* minimum improvement by a later candidate */
-static const double NEARNESS = 2;  /* weight of a mean distance against the fraction inside */
+static const double SAME_SCALE = 1e-6; /* relative */
+static const double BETTER = 0.02;     /* minimum improvement by a later candidate */
+static const double NEARNESS = 2;      /* weight of a mean distance against the fraction inside */
 /* minimum extent of the bones as a fraction of the body's longest side, for the stated transform */
 static const double MIN_LONG = 0.6;
-static const double KEPT = 0.85; /* fraction inside from which the stated transform is not a coincidence */
-static const double ODD = 0.15;  /* minimum improvement by an unusual scale or offset with the same axes */
-static const double POSED = 0.1; /* minimum improvement by a rarer rotation if limbs are posed differently */
-static const double REACH = 0.3; /* maximum deficit of a candidate before its scale and offset are refined */
+static const double KEPT = 0.85;  /* fraction inside from which the stated transform is not a coincidence */
+static const double ODD = 0.15;   /* minimum improvement by an unusual scale or offset with the same axes */
+static const double MOVED = 0.05; /* minimum improvement by an offset that was searched for */
+static const double POSED = 0.1;  /* minimum improvement by a rarer rotation if limbs are posed differently */
+static const double REACH = 0.3;  /* maximum deficit of a candidate before its scale and offset are refined */
 
 typedef struct candidate {
   sbfi_matrix m;
@@ -182,6 +184,65 @@ static candidate refined(const search *s, candidate from) {
   return from;
 }
 
+/* Steps of a descent, as fractions of the bones' size; maximum number of rounds of a step, and of rotations
+ * whose offset is searched for. */
+static const double FIRST_STEP = 0.16, LAST_STEP = 0.005;
+enum { MAX_ROUNDS = 6, MAX_SEARCHED = 3 };
+/* Limits of the ratio of the input's length to that of its bones. */
+static const double MIN_RATIO = 0.7, MAX_RATIO = 1.6;
+static const double NEAR_SCALE = 0.3; /* relative difference of a usual scale from the best one */
+
+/* Moved along an axis (0 to 2), or scaled about the bones' middle (3), by a fraction of the bones' size. */
+static sbfi_matrix stepped(const search *s, const sbfi_matrix *m, int axis, double step) {
+  double size = longest_side(s->lines.low, s->lines.high), at[3] = {m->at[0][3], m->at[1][3], m->at[2][3]};
+  const sbfi_d3 middle = sbfi_d3_scale(sbfi_d3_add(s->lines.low, s->lines.high), 0.5);
+  const double fixed[3] = {middle.x, middle.y, middle.z};
+  double factor = axis == 3 ? 1 + step : 1;
+  for (int k = 0; k < 3; k++) at[k] = fixed[k] + factor * (at[k] - fixed[k]) + (k == axis) * step * size;
+  return sbfi_similarity_scaled(m, sbfi_similarity_scale(m) * factor, (sbfi_d3){at[0], at[1], at[2]});
+}
+
+/* Improves the offset of a candidate, and its scale if that is free, in decreasing steps. */
+static candidate descended(const search *s, candidate from, bool is_scale_free) {
+  double bones = longest_side(s->lines.low, s->lines.high), input = longest_side(s->soup.low, s->soup.high);
+  for (double step = FIRST_STEP; step > LAST_STEP; step *= 0.5)
+    for (int round = 0; round < MAX_ROUNDS; round++) {
+      double before = from.score;
+      for (int k = 0; k < (is_scale_free ? 8 : 6); k++) {
+        sbfi_matrix m = stepped(s, &from.m, k / 2, k % 2 ? -step : step);
+        double ratio = input * sbfi_similarity_scale(&m) / bones;
+        if (k >= 6 && (ratio < MIN_RATIO || ratio > MAX_RATIO)) continue;
+        candidate here = evaluate(s, &m, from.score);
+        if (here.score > from.score) from = here;
+      }
+      if (from.score <= before) break;
+    }
+  return from;
+}
+
+/* Best alignment of a rotation at a usual scale and any offset. Each scale starts where both have their
+ * middles, and where an unusual scale fits best. */
+static candidate best_offset(const search *s, const candidate *plain) {
+  double bones = longest_side(s->lines.low, s->lines.high), input = longest_side(s->soup.low, s->soup.high);
+  const sbfi_d3 middle = sbfi_d3_scale(sbfi_d3_add(s->lines.low, s->lines.high), 0.5);
+  const sbfi_d3 center = sbfi_d3_scale(sbfi_d3_add(s->soup.low, s->soup.high), 0.5);
+  candidate best = {.score = -INFINITY}, unusual = descended(s, *plain, true);
+  double found = sbfi_similarity_scale(&unusual.m);
+  for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS; unit++) {
+    double scale = unit ? sbfi_usual_units[unit - 1].unit_m : sbfi_similarity_scale(&s->r->c->to_asset);
+    if (input * scale < MIN_RATIO * bones || input * scale > MAX_RATIO * bones) continue;
+    sbfi_matrix m = sbfi_similarity_scaled(&plain->m, scale, (sbfi_d3){0, 0, 0});
+    m = sbfi_similarity_scaled(&m, scale, sbfi_d3_sub(middle, sbfi_similarity_apply(&m, center)));
+    candidate here = descended(s, evaluate(s, &m, -INFINITY), false);
+    if (here.score > best.score) best = here;
+    if (fabs(scale / found - 1) > NEAR_SCALE) continue;
+    m = stepped(s, &unusual.m, 3, scale / found - 1);
+    here = descended(s, evaluate(s, &m, -INFINITY), false);
+    if (here.score > best.score) best = here;
+  }
+  return best;
+}
+
 /* Rotations by how rarely files need them. `min_better` is the minimum improvement over more common ones;
  * `cost` is added where limbs are rotated too, in RARER. */
 enum { UPRIGHT, Z_UP_RIG, BACKWARDS, SIDEWAYS, OWN_AXES, OTHERS, RARITIES };
@@ -200,17 +261,47 @@ static uint32_t rarity_of(const search *s, const sbfi_matrix *m) {
   return m->at[0][0] > max ? UPRIGHT : m->at[0][0] < -max ? BACKWARDS : SIDEWAYS;
 }
 
+static bool is_usual_scale(const search *s, const sbfi_matrix *m) {
+  double scale = sbfi_similarity_scale(m);
+  for (uint32_t i = 0; i < SBFI_USUAL_UNITS; i++)
+    if (fabs(scale / sbfi_usual_units[i].unit_m - 1) < SAME_SCALE) return true;
+  return fabs(scale / sbfi_similarity_scale(&s->r->c->to_asset) - 1) < SAME_SCALE;
+}
+
+/* Whether an alignment has a usual scale and no offset. */
+static bool is_plain(const search *s, const sbfi_matrix *m) {
+  return m->at[0][3] == 0 && m->at[1][3] == 0 && m->at[2][3] == 0 && is_usual_scale(s, m);
+}
+
+/* Whether the best of the coarse candidates has a usual scale and no offset, and most bones inside. */
+static bool fits_plainly(const search *s) {
+  const candidate *best = &s->of_rotation[0];
+  for (uint32_t i = 1; i < ROTATIONS; i++)
+    if (s->of_rotation[i].score > best->score) best = &s->of_rotation[i];
+  return best->fraction >= CERTAIN && is_plain(s, &best->m);
+}
+
+/* Number of rotations whose coarse candidate is better. */
+static uint32_t count_better(const search *s, const candidate *plain) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < ROTATIONS; i++) count += s->of_rotation[i].score > plain->score;
+  return count;
+}
+
 /* Selects the best of all rotations, each with its best scale and offset. A more common rotation stays
  * unless another is clearly better, as around straight chains of bones; the same holds for a usual unit
  * and offset. */
 static void choose(search *s) {
   double max = s->best.score;
+  const bool fits = sbfi_rig_has_no_size(s->r) || fits_plainly(s);
   for (uint32_t i = 0; i < RARITIES * ROTATIONS; i++) {
     const candidate *plain = &s->of_rotation[i % ROTATIONS];
     uint32_t rarity = i / ROTATIONS;
     if (!(plain->score > max - REACH) || rarity_of(s, &plain->m) != rarity) continue;
     candidate better = refined(s, *plain);
     if (better.fraction < GOOD) better = *plain;
+    candidate moved = fits || count_better(s, plain) >= MAX_SEARCHED ? better : best_offset(s, plain);
+    if (moved.score >= better.score + (is_plain(s, &better.m) ? ODD : MOVED)) better = moved;
     if (better.score < max + RARE[rarity].min_better + (rarity && better.fraction < GOOD ? POSED : 0))
       continue;
     max = better.score;
@@ -373,7 +464,6 @@ static double uncovered_fraction(const search *s) {
 /* Factors on the cost of rotated limbs: for a usual unit, for the stated unit, and additionally without an
  * offset, because in another pose an unusual scale can compensate. Added cost for each rarer rotation. */
 static const double USUAL_UNIT = 0.75, STATED_UNIT = 0.68, NO_OFFSET = 0.8, RARER = 0.15;
-static const double SAME_SCALE = 1e-6; /* relative */
 
 static void add_candidate(const search *s, const sbfi_matrix *m, sbfi_limb_candidate *to, uint32_t *count) {
   double scale = sbfi_similarity_scale(m);
