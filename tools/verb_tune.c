@@ -8,6 +8,7 @@
 #include "output_name.h"
 #include "saving.h"
 #include "sbfmt/io.h"
+#include "tune/fitted_mesh.h"
 #include "tune/forecast.h"
 #include "tuning_report.h"
 
@@ -127,6 +128,21 @@ static sbf_status create_comparisons(tuning *t, sbf_diagnostic *error) {
   return status;
 }
 
+/* Adds the file's own levels with a stiffness fitted to the reference, and plans again. */
+static sbf_status add_fitted(tuning *t, const request *r, sbf_diagnostic *error) {
+  const tune_fit fit = {.drives = {&t->comparison, &t->other}, .drive_count = 2};
+  sbf_status status = SBF_OK;
+  for (uint32_t i = 0, count = t->meshes.count; status == SBF_OK && i < count; i++) {
+    if (t->meshes.count == TUNE_MAX_MESHES) break;
+    if (t->meshes.at[i].asked) continue;
+    status = tune_fit_mesh(&t->meshes.at[i], &fit, &t->meshes.at[t->meshes.count], error);
+    t->meshes.count += t->meshes.at[t->meshes.count].asset != NULL;
+  }
+  if (status != SBF_OK) return status;
+  tune_trials_free(&t->trials);
+  return tune_trials_plan(&t->meshes, &r->effort, &t->trials, error);
+}
+
 static sbf_status sweep(cli_call *call, tuning *t, request *r, sbf_diagnostic *error) {
   sbf_asset *asset;
   sbf_status status = sbf_load_file(
@@ -141,6 +157,7 @@ static sbf_status sweep(cli_call *call, tuning *t, request *r, sbf_diagnostic *e
   status = tune_trials_plan(&t->meshes, &r->effort, &t->trials, error);
   if (status == SBF_OK) status = announce(call, t, error);
   if (status == SBF_OK) status = create_comparisons(t, error);
+  if (status == SBF_OK) status = add_fitted(t, r, error);
   if (status == SBF_OK)
     status = tune_trials_run(&t->meshes, &t->comparison, &t->other, &r->effort, &t->trials, error);
   return status;
