@@ -110,6 +110,18 @@ static sbf_status announce(const cli_call *call, const tuning *t, sbf_diagnostic
   return SBF_OK;
 }
 
+/* The finest lattice to try, if it has at least half of the reference's elements; NULL: there is none. */
+static const sbf_asset *half_reference(const tune_meshes *meshes) {
+  const tune_mesh *finest = NULL;
+  for (uint32_t i = 0; i < meshes->count; i++) {
+    const tune_mesh *mesh = &meshes->at[i];
+    if (mesh->calibrated && 2 * mesh->asked >= meshes->reference.asked &&
+        (!finest || mesh->asked > finest->asked))
+      finest = mesh;
+  }
+  return finest && meshes->reference.asked ? finest->asset : NULL;
+}
+
 static sbf_status create_comparisons(tuning *t, sbf_diagnostic *error) {
   static char of_this[] = "reference", of_other[] = "harsher drive";
   const tune_measure measure = {.by = t->by, .progress = show_reference, .user = of_this};
@@ -125,6 +137,8 @@ static sbf_status create_comparisons(tuning *t, sbf_diagnostic *error) {
   }
   if (status == SBF_OK)
     status = tune_comparison_create(&t->other, t->meshes.reference.asset, &harsher, error);
+  const sbf_asset *half = half_reference(&t->meshes);
+  if (status == SBF_OK && half) status = tune_comparison_check_resolution(&t->other, half, error);
   return status;
 }
 
