@@ -16,9 +16,10 @@ const chart_drive tune_harsher_drive = {.speed = 0.5,
 
 /* Larger errors, as a fraction of the character's size, count as failures. */
 static const double LOST = 0.05;
-/* Maximum error of a usable reference as a fraction of the size: of its steps, and of a lattice of half its
- * elements. */
+/* Maximum error of a usable reference as a fraction of the size. */
 static const double MAX_REFERENCE_ERROR = 0.005;
+/* Maximum error of a lattice of half its elements: 1 % with the margin of a promise. */
+static const double MAX_RESOLUTION_ERROR = 0.008;
 
 double tune_size_of(const sbf_asset *asset) {
   sbf_asset_measures is;
@@ -160,7 +161,7 @@ sbf_status tune_comparison_check_resolution(
     tune_error is = {.sound = true, .min_volume = 1};
     if (comparison->unmeasured[i][0]) continue;
     status = check(comparison, i, coarser, &(chart_setting){.level = 0}, true, &is, error);
-    if (status != SBF_OK || (is.sound && is.off.p99_m <= MAX_REFERENCE_ERROR * comparison->size_m)) continue;
+    if (status != SBF_OK || (is.sound && is.off.p99_m <= MAX_RESOLUTION_ERROR * comparison->size_m)) continue;
     char *why = comparison->unmeasured[i];
     size_t size = sizeof comparison->unmeasured[i];
     if (is.sound)

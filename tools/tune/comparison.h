@@ -54,7 +54,7 @@ sbf_status tune_comparison_create(tune_comparison *comparison, const sbf_asset *
 void tune_comparison_free(tune_comparison *comparison);
 
 /* Excludes motions in which the 99th percentile of the distance of a lattice with half the reference's
- * elements is more than a two-hundredth of the size: there the reference cannot tell errors of a percent.
+ * elements is more than 0.8 % of the size: there the reference cannot tell errors of a percent.
  * Fails only if memory runs out. */
 sbf_status tune_comparison_check_resolution(
     tune_comparison *comparison, const sbf_asset *coarser, sbf_diagnostic *error);
