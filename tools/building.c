@@ -154,10 +154,13 @@ static void print_choice(const cli_call *call, const section_budget *choice) {
   sbf_diagnostic diagnostic = {
       .code = SBF_CODE_SOFTNESS_PROPOSED, .severity = SBF_SEVERITY_INFO, .offset = -1, .index = -1};
   const double us = SECTION_BUDGET_NS_PER_VISIT / 1e3;
-  char off[96] = "", left[320] = "";
+  char off[96] = "", left[320] = "", firmer[96] = "";
   if (choice->p99_fraction >= 0)
     snprintf(off, sizeof off, "99 of 100 skin vertices within %.2g %% of the size of the result with %u, ",
         100 * choice->p99_fraction, (unsigned)choice->finest);
+  if (choice->firmer > 1)
+    snprintf(firmer, sizeof firmer,
+        " and moduli %.2g times the proposed, because softer parts are less close", choice->firmer);
   if (choice->left_out)
     snprintf(left, sizeof left, "; rigid to keep the budget: %u of the smallest parts (%s)",
         (unsigned)choice->left_out, choice->names);
@@ -171,22 +174,23 @@ static void print_choice(const cli_call *call, const section_budget *choice) {
         "; the skin's vertices alone cost %.0f us, so soft parts have a quarter of the budget",
         us * choice->skin_visits);
   snprintf(diagnostic.message, sizeof diagnostic.message,
-      "sections follow lattices of about %u tetrahedra: %s%.0f element visits a tick of at most %.0f (%.0f "
+      "sections follow lattices of about %u tetrahedra%s: %s%.0f element visits a tick of at most %.0f (%.0f "
       "us of "
       "%.0f at %.0f ns each)%s",
-      (unsigned)choice->elements, off, choice->visits, choice->max_visits, us * choice->visits,
+      (unsigned)choice->elements, firmer, off, choice->visits, choice->max_visits, us * choice->visits,
       us * choice->max_visits, SECTION_BUDGET_NS_PER_VISIT, left);
   cli_progress_end();
   cli_print_diagnostic(call, &diagnostic);
 }
 
-sbf_status building_choose(cli_call *call, sbf_asset *source, double budget_us, sbf_diagnostic *error) {
+sbf_status building_choose(
+    cli_call *call, sbf_asset *source, double budget_us, bool may_stiffen, sbf_diagnostic *error) {
   sbf_build_options options;
   section_budget choice;
   if (!read_options(call, &options)) return SBF_FAILED;
   if (!(budget_us > 0) || !section_budget_applies(source, &options)) return SBF_OK;
   cli_progress("budget", 0);
-  sbf_status status = section_budget_choose(source, &options, budget_us, &choice, error);
+  sbf_status status = section_budget_choose(source, &options, budget_us, may_stiffen, &choice, error);
   if (status == SBF_OK && choice.elements) print_choice(call, &choice);
   cli_progress_end();
   return status;

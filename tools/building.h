@@ -28,8 +28,10 @@
 bool building_check(const cli_call *call);
 
 /* Chooses the number and resolution of the sections of a skin within a budget (section_budget.h) and stores
- * both in the section recipes. Does nothing if `budget_us` is 0 or the call's options choose a resolution. */
-sbf_status building_choose(cli_call *call, sbf_asset *source, double budget_us, sbf_diagnostic *error);
+ * both in the section recipes; with `may_stiffen` also stiffer moduli than proposed. Does nothing if
+ * `budget_us` is 0 or the call's options choose a resolution. */
+sbf_status building_choose(
+    cli_call *call, sbf_asset *source, double budget_us, bool may_stiffen, sbf_diagnostic *error);
 
 /* Runs the build passes on *asset and replaces it by the result. Frees *asset on failure. */
 sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_build_report *made, sbf_diagnostic *error);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/fault.h"
@@ -14,8 +15,13 @@
 /* Coarsest first; the last is the reference of all. */
 static const uint32_t sizes[] = {40, 80, 160};
 enum { SIZE_COUNT = sizeof sizes / sizeof *sizes, FINEST = 640 };
-static const double NEAR_FRACTION = 0.01, MIN_VOLUME = 0.9, MAX_STRAIN = 0.5;
-static const double ALIKE = 1.15;    /* maximum ratio of volumes of left and right */
+/* Maximum error as a fraction of the size; stiffened parts keep the margin that sbfmt tune promises. */
+static const double NEAR_FRACTION = 0.01, STIFFENED_FRACTION = 0.008;
+static const double MIN_VOLUME = 0.9, MAX_STRAIN = 0.5;
+static const double ALIKE = 1.15; /* maximum ratio of volumes of left and right */
+/* Factors on the proposed moduli, in turn. */
+static const double firmer[] = {1, 1.5, 2, 3};
+enum { FIRMER_COUNT = sizeof firmer / sizeof *firmer };
 static const double SKIN_VISITS = 2; /* element visits per skin vertex with its normal: 8 to 14 ns */
 /* minimum fraction of the budget for soft parts, whatever the skin costs */
 static const double SOFT_FRACTION = 0.25;
@@ -75,8 +81,9 @@ static bool is_firm(const candidate *c) {
   return c->is.min_volume >= MIN_VOLUME && c->is.max_strain <= MAX_STRAIN;
 }
 
-static bool is_near(const candidate *c, double size_m) {
-  return is_firm(c) && c->is.off.p99_m <= NEAR_FRACTION * size_m;
+static bool is_near(const candidate *c, double size_m, bool is_stiffened) {
+  double bound = is_stiffened ? STIFFENED_FRACTION : NEAR_FRACTION;
+  return is_firm(c) && c->is.off.p99_m <= bound * size_m;
 }
 
 /* Valid shapes take precedence over accuracy. */
@@ -90,7 +97,7 @@ static void take(section_budget *choice, const candidate *c, double size_m) {
   choice->elements = c->elements;
   choice->visits = c->visits;
   if (c->is.sound) choice->p99_fraction = c->is.off.p99_m / size_m;
-  choice->near = c->is.sound && is_near(c, size_m);
+  choice->near = c->is.sound && is_near(c, size_m, choice->firmer > 1);
 }
 
 /* Evaluates one number of elements; `*best` is the better of the two. */
@@ -103,10 +110,10 @@ static sbf_status try_one(const sbf_asset *built, double visits, uint32_t elemen
   return status;
 }
 
-/* Selects the cheapest within the budget that is close to the finest, else the best; elements stay 0 if
- * none is within. */
-static sbf_status choose(
-    const sbf_asset *source, const sbf_build_options *build, section_budget *choice, sbf_diagnostic *error) {
+/* Selects the cheapest from `min_elements` within the budget that is close to the finest, else the best;
+ * elements stay 0 if none is within. */
+static sbf_status choose_size(const sbf_asset *source, const sbf_build_options *build, uint32_t min_elements,
+    section_budget *choice, candidate *chosen, sbf_diagnostic *error) {
   sbf_asset *finest = NULL;
   tune_comparison comparison = {.rest = NULL};
   candidate best = {.elements = 0};
@@ -114,6 +121,7 @@ static sbf_status choose(
   sbf_status status = SBF_OK;
   for (int i = 0; status == SBF_OK && i < SIZE_COUNT && !choice->near; i++) {
     sbf_asset *built = NULL;
+    if (sizes[i] < min_elements) continue;
     status = build_one(source, build, sizes[i], &built, error);
     if (status != SBF_OK) break;
     double visits = visits_of(built, choice->skin_visits);
@@ -129,6 +137,63 @@ static sbf_status choose(
   }
   tune_comparison_free(&comparison);
   sbf_asset_free(finest);
+  *chosen = best;
+  return status;
+}
+
+static sbf_section_recipe *recipe_at(sbf_asset *source, uint32_t index) {
+  return (sbf_section_recipe *)(uintptr_t)&source->section_recipes.at[index]; /* owned by the caller */
+}
+
+/* Two digits, as the conversion proposes moduli. */
+static float rounded(double pascals) {
+  double unit = pow(10, floor(log10(pascals)) - 1);
+  return (float)(round(pascals / unit) * unit);
+}
+
+/* Multiplies the moduli that the conversion proposed; requested parts keep theirs. */
+static void stiffen(sbf_asset *source, const float *proposed_pa, double factor) {
+  for (uint32_t i = 0; i < source->section_recipes.count; i++) {
+    sbf_section_recipe *recipe = recipe_at(source, i);
+    if (recipe->proposed)
+      recipe->attributes.young_modulus =
+          factor > 1 ? rounded(factor * (double)proposed_pa[i]) : proposed_pa[i];
+  }
+}
+
+/* 0: it loses its shape; 1: it keeps it; 2: it is also close to the finest, with or without the margin. */
+static int rank_of(const candidate *c, const section_budget *choice) {
+  if (!c->is.sound || !is_firm(c)) return 0;
+  return choice->p99_fraction <= NEAR_FRACTION ? 2 : 1;
+}
+
+/* Where no size is close to the finest, stiffens what was proposed until one is. If that does not help, the
+ * first of the best rank remains. */
+static sbf_status choose(sbf_asset *source, const sbf_build_options *build, bool may_stiffen,
+    section_budget *choice, sbf_diagnostic *error) {
+  const section_budget none = *choice;
+  section_budget first = none;
+  uint32_t count = source->section_recipes.count;
+  int rank = -1;
+  float *proposed_pa = calloc((size_t)count + 1, sizeof *proposed_pa);
+  if (!proposed_pa) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for moduli");
+  for (uint32_t i = 0; i < count; i++)
+    proposed_pa[i] = source->section_recipes.at[i].attributes.young_modulus;
+  sbf_status status = SBF_OK;
+  for (int i = 0; status == SBF_OK && i < (may_stiffen ? FIRMER_COUNT : 1) && !choice->near; i++) {
+    candidate chosen;
+    *choice = none;
+    choice->firmer = firmer[i];
+    stiffen(source, proposed_pa, firmer[i]);
+    status = choose_size(source, build, first.elements, choice, &chosen, error);
+    if (!choice->elements) break; /* nothing is within the budget */
+    if (rank_of(&chosen, choice) > rank) first = *choice, rank = rank_of(&chosen, choice);
+  }
+  if (status == SBF_OK && !choice->near) {
+    *choice = first;
+    stiffen(source, proposed_pa, first.firmer);
+  }
+  free(proposed_pa);
   return status;
 }
 
@@ -138,10 +203,6 @@ static bool may_leave_out(const sbf_asset *source, int32_t bone) {
     if (source->section_recipes.at[i].bone == bone)
       return source->section_recipes.at[i].proposed && is_soft(&source->section_recipes.at[i]);
   return false;
-}
-
-static sbf_section_recipe *recipe_at(sbf_asset *source, uint32_t index) {
-  return (sbf_section_recipe *)(uintptr_t)&source->section_recipes.at[index]; /* owned by the caller */
 }
 
 /* Adds its name to the report. */
@@ -194,17 +255,18 @@ static sbf_status fit(
 }
 
 sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *build, double budget_us,
-    section_budget *choice, sbf_diagnostic *error) {
+    bool may_stiffen, section_budget *choice, sbf_diagnostic *error) {
   const double budget = 1e3 * budget_us / SECTION_BUDGET_NS_PER_VISIT, skin = skin_visits_of(source);
   *choice = (section_budget){.skin_visits = skin,
       .max_visits = fmax(budget, skin + SOFT_FRACTION * budget),
       .exceeds = skin + SOFT_FRACTION * budget > budget,
       .finest = FINEST,
+      .firmer = 1,
       .p99_fraction = NAN};
   sbf_asset *coarse = tune_count_vertices(source) > DENSE ? tune_decimate_skins(source, DECIMATED) : source;
   if (!coarse) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a coarser skin");
   /* It shares the recipes with the source. */
-  sbf_status status = choose(coarse, build, choice, error);
+  sbf_status status = choose(coarse, build, may_stiffen, choice, error);
   if (status == SBF_OK && !choice->elements) status = fit(coarse, build, choice, error);
   if (coarse != source) sbf_asset_free(coarse);
   for (uint32_t i = 0; status == SBF_OK && i < source->section_recipes.count; i++) {

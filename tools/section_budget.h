@@ -19,22 +19,25 @@ typedef struct section_budget {
                           fraction of the size */
   uint32_t finest;     /* number of elements of the finest */
   uint32_t soft;       /* final number of soft parts */
-  bool near;           /* within 1 % of the size, at least nine tenths of the volume, strains up to a half */
-  uint32_t left_out;   /* parts made rigid to keep the budget */
-  char names[160];     /* names of those */
+  double firmer;       /* factor on the proposed moduli */
+  bool near; /* within 1 % of the size (0.8 % if stiffened), at least nine tenths of the volume, strains up to
+                a half */
+  uint32_t left_out; /* parts made rigid to keep the budget */
+  char names[160];   /* names of those */
 } section_budget;
 
 /* Whether there is a choice: soft parts of a skin that will be cut, and no other soft bodies. */
 bool section_budget_applies(const sbf_asset *source, const sbf_build_options *build);
 
 /* Builds the sections with several numbers of elements, runs each with the character's own walk, hop and
- * shake, and selects the cheapest that is close to the finest; else the best within the budget. If none is
- * within it, makes the smallest parts that the conversion proposed rigid until one is. A quarter of the
- * budget is for soft parts even if the skin needs all of it. Tries skins of more
- * than 32,768 vertices in a decimated form. Writes the choice into the section recipes of `source`, which is
- * the caller's own. */
+ * shake, and selects the cheapest that is close to the finest. If none is close, and it may stiffen them,
+ * multiplies the moduli that the conversion proposed by up to 4 until one is. Else selects the best within
+ * the budget. If none is within it, makes the smallest parts that the conversion proposed rigid until one is.
+ * A quarter of the budget is for soft parts even if the skin needs all of it. Tries skins of more than 32,768
+ * vertices in a decimated form. Writes the choice into the section recipes of `source`, which is the
+ * caller's own. */
 sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *build, double budget_us,
-    section_budget *choice, sbf_diagnostic *error);
+    bool may_stiffen, section_budget *choice, sbf_diagnostic *error);
 
 /* Stores the cost of each level in element visits if section recipes have elements. */
 void section_budget_state_costs(sbf_asset *built);

@@ -139,8 +139,9 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
   }
   if (status == SBF_OK) {
     double budget_us;
+    bool exact = cli_value(call, "--firmness") || cli_value(call, "--material") || is_bundle(input);
     read_budget(call, input, &budget_us);
-    status = building_choose(call, asset, budget_us, &error);
+    status = building_choose(call, asset, budget_us, !exact, &error);
     if (status != SBF_OK) sbf_asset_free(asset);
   }
   if (status == SBF_OK && !builds) state_figures(asset);

@@ -8,6 +8,7 @@
 #include "output_name.h"
 #include "saving.h"
 #include "sbfmt/io.h"
+#include "tune/fitted_mesh.h"
 #include "tune/forecast.h"
 #include "tuning_report.h"
 
@@ -109,6 +110,18 @@ static sbf_status announce(const cli_call *call, const tuning *t, sbf_diagnostic
   return SBF_OK;
 }
 
+/* The finest lattice to try, if it has at least half of the reference's elements; NULL: there is none. */
+static const sbf_asset *half_reference(const tune_meshes *meshes) {
+  const tune_mesh *finest = NULL;
+  for (uint32_t i = 0; i < meshes->count; i++) {
+    const tune_mesh *mesh = &meshes->at[i];
+    if (mesh->calibrated && 2 * mesh->asked >= meshes->reference.asked &&
+        (!finest || mesh->asked > finest->asked))
+      finest = mesh;
+  }
+  return finest && meshes->reference.asked ? finest->asset : NULL;
+}
+
 static sbf_status create_comparisons(tuning *t, sbf_diagnostic *error) {
   static char of_this[] = "reference", of_other[] = "harsher drive";
   const tune_measure measure = {.by = t->by, .progress = show_reference, .user = of_this};
@@ -124,7 +137,24 @@ static sbf_status create_comparisons(tuning *t, sbf_diagnostic *error) {
   }
   if (status == SBF_OK)
     status = tune_comparison_create(&t->other, t->meshes.reference.asset, &harsher, error);
+  const sbf_asset *half = half_reference(&t->meshes);
+  if (status == SBF_OK && half) status = tune_comparison_check_resolution(&t->other, half, error);
   return status;
+}
+
+/* Adds the file's own levels with a stiffness fitted to the reference, and plans again. */
+static sbf_status add_fitted(tuning *t, const request *r, sbf_diagnostic *error) {
+  const tune_fit fit = {.drives = {&t->comparison, &t->other}, .drive_count = 2};
+  sbf_status status = SBF_OK;
+  for (uint32_t i = 0, count = t->meshes.count; status == SBF_OK && i < count; i++) {
+    if (t->meshes.count == TUNE_MAX_MESHES) break;
+    if (t->meshes.at[i].asked) continue;
+    status = tune_fit_mesh(&t->meshes.at[i], &fit, &t->meshes.at[t->meshes.count], error);
+    t->meshes.count += t->meshes.at[t->meshes.count].asset != NULL;
+  }
+  if (status != SBF_OK) return status;
+  tune_trials_free(&t->trials);
+  return tune_trials_plan(&t->meshes, &r->effort, &t->trials, error);
 }
 
 static sbf_status sweep(cli_call *call, tuning *t, request *r, sbf_diagnostic *error) {
@@ -141,6 +171,7 @@ static sbf_status sweep(cli_call *call, tuning *t, request *r, sbf_diagnostic *e
   status = tune_trials_plan(&t->meshes, &r->effort, &t->trials, error);
   if (status == SBF_OK) status = announce(call, t, error);
   if (status == SBF_OK) status = create_comparisons(t, error);
+  if (status == SBF_OK) status = add_fitted(t, r, error);
   if (status == SBF_OK)
     status = tune_trials_run(&t->meshes, &t->comparison, &t->other, &r->effort, &t->trials, error);
   return status;

@@ -8,8 +8,14 @@ import xml.etree.ElementTree as ElementTree
 from sbfmt_program import ROOT, ProgramTest, main, read_bytes
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
-SAID = re.compile(r"lattices of about (\d+) tetrahedra: (?:99 of 100 skin vertices within ([\d.e-]+) % of the size of the result with \d+, )?"
+PUP = os.path.join(ROOT, "examples", "pup", "pup.glb")
+SAID = re.compile(r"lattices of about (\d+) tetrahedra(?: and moduli [\d.]+ times the proposed, because softer parts are less close)?: (?:99 of 100 skin vertices within ([\d.e-]+) % of the size of the result with \d+, )?"
                   r"(\d+) element visits a tick of at most (\d+)")
+
+
+def moduli_of(path):
+    recipes = ElementTree.parse(path).getroot().findall("section_recipes/section_recipe")
+    return {float(r.find("attributes").get("young_modulus")) for r in recipes}
 
 
 def elements_of(path):
@@ -70,6 +76,20 @@ class Budget(ProgramTest):
             self.assertEqual(read_bytes(again), read_bytes(made))
         _, printed, _ = self.converted("asked", "--budget", "100", source=made)
         self.assertTrue(printed)
+
+    def test_parts_too_soft_to_be_near_are_stiffened(self):
+        exact, (_, off, *_), err = self.converted("exact", "--firmness", "1", source=PUP)
+        self.assertGreater(off, 1)
+        self.assertNotIn("moduli", err)
+        made, (_, off, *_), err = self.converted("made", source=PUP)
+        self.assertLessEqual(off, 0.8)
+        self.assertIn("and moduli 2 times the proposed", err)
+        (was,), (modulus,) = moduli_of(exact), moduli_of(made)
+        self.assertAlmostEqual(modulus, 2 * was, delta=0.05 * modulus)
+        self.assertEqual(moduli_of(self.converted("flesh", "--material", "flesh", source=PUP)[0]), {20000})
+        again = self.path("again.sbf")
+        self.good("build", made, "-o", again)
+        self.assertEqual(read_bytes(again), read_bytes(made))
 
     def test_requested_sections_stay_soft(self):
         made, _, err = self.converted("asked", "--soft", "tail3", "--budget", "10")

@@ -18,6 +18,8 @@ const chart_drive tune_harsher_drive = {.speed = 0.5,
 static const double LOST = 0.05;
 /* Maximum error of a usable reference as a fraction of the size. */
 static const double MAX_REFERENCE_ERROR = 0.005;
+/* Maximum error of a lattice of half its elements: 1 % with the margin of a promise. */
+static const double MAX_RESOLUTION_ERROR = 0.008;
 
 double tune_size_of(const sbf_asset *asset) {
   sbf_asset_measures is;
@@ -148,6 +150,24 @@ sbf_status tune_comparison_measure(const tune_comparison *comparison, const sbf_
       status = check(comparison, number, asset, setting, bar && bar->far, is, error);
     is->beaten = bar && is->sound && i + 1 < CHART_BUNDLE_CASES &&
                  !(tune_distance_by(&is->off, bar->by) < bar->error_m);
+  }
+  return status;
+}
+
+sbf_status tune_comparison_check_resolution(
+    tune_comparison *comparison, const sbf_asset *coarser, sbf_diagnostic *error) {
+  sbf_status status = SBF_OK;
+  for (int i = 0; status == SBF_OK && i < CHART_BUNDLE_CASES; i++) {
+    tune_error is = {.sound = true, .min_volume = 1};
+    if (comparison->unmeasured[i][0]) continue;
+    status = check(comparison, i, coarser, &(chart_setting){.level = 0}, true, &is, error);
+    if (status != SBF_OK || (is.sound && is.off.p99_m <= MAX_RESOLUTION_ERROR * comparison->size_m)) continue;
+    char *why = comparison->unmeasured[i];
+    size_t size = sizeof comparison->unmeasured[i];
+    if (is.sound)
+      snprintf(why, size, "the reference and a lattice of half its elements differ by %.2g m", is.off.p99_m);
+    else
+      snprintf(why, size, "a lattice of half the reference's elements breaks");
   }
   return status;
 }

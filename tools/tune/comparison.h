@@ -53,6 +53,12 @@ sbf_status tune_comparison_create(tune_comparison *comparison, const sbf_asset *
     const tune_measure *measure, sbf_diagnostic *error);
 void tune_comparison_free(tune_comparison *comparison);
 
+/* Excludes motions in which the 99th percentile of the distance of a lattice with half the reference's
+ * elements is more than 0.8 % of the size: there the reference cannot tell errors of a percent.
+ * Fails only if memory runs out. */
+sbf_status tune_comparison_check_resolution(
+    tune_comparison *comparison, const sbf_asset *coarser, sbf_diagnostic *error);
+
 /* When to stop a measurement. */
 typedef struct tune_bar {
   double error_m; /* error above which it is beaten */
