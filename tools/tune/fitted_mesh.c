@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/fault.h"
+#include "base/fault.h"
 
 /* Factors of the first pass, then steps around the best one, each half of the one before. */
 static const double COARSE[] = {1, 0.7, 1.4, 0.5, 2, 0.35, 2.8, 0.25, 4};
