@@ -65,6 +65,20 @@ class ManyInputs(ProgramTest):
             for name in made:
                 os.remove(os.path.join(out, name))
 
+    def test_options_apply_to_each_input(self):
+        """Values and switches: each file is what a call for it alone writes, and so are the messages."""
+        options = ("--unit", "0.5", "--material", "rubber", "--no-build", "--verbose")
+        names = ("-a b", "ü")
+        inputs = [write_bytes(self.path(name + ".obj"), CUBE.encode()) for name in names]
+        batch = call("convert", *options, "--out-dir", self.path("out"), *inputs)
+        for name, source in zip(names, inputs):
+            alone = call("convert", source, "-o", self.path(name + ".sbf"), *options)
+            self.assertEqual((alone.status, batch.status), (0, 0), batch.err)
+            self.assertIn(alone.err, batch.err)
+            self.assertIn(alone.out, batch.out)
+            with open(self.path(name + ".sbf"), "rb") as one, open(self.path(f"out/{name}.sbf"), "rb") as other:
+                self.assertEqual(one.read(), other.read())
+
     def test_unchanged_inputs_are_skipped(self):
         out = self.path("out")
         inputs = [write_bytes(self.path(name + ".obj"), CUBE.encode()) for name in ("a", "b", "c")]
