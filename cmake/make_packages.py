@@ -20,6 +20,7 @@ import argparse
 import glob
 import gzip
 import hashlib
+import json
 import os
 import platform
 import re
@@ -155,6 +156,11 @@ class Packages:
         shutil.copytree(os.path.join(cache_of(tree)["SBFMT_STATIC_LIBRARIES"], "licences"), os.path.join(folder, "licences"))
         shutil.copyfile(os.path.join(HERE, "..", "LICENSE"), os.path.join(folder, "licences", "sbfmt.txt"))
 
+    def tree_of(self, name):
+        """The build tree whose static libraries are inside a package."""
+        return {"linux": self.self_contained, "blender": self.self_contained, "windows": self.windows_tree, "program": self.node,
+                "studio": self.node}.get(name)
+
     def npm(self):
         if not has_target(self.static, "sbfmt-npm"):
             return "the tree has no WebAssembly or npm: install clang, lld, wasi-libc, libclang-rt-VERSION-dev-wasm32 and npm"
@@ -198,6 +204,44 @@ class Packages:
 NAMES = ("debian", "tarball", "linux", "windows", "npm", "program", "studio", "blender", "godot")
 
 
+# Of the libraries that cmake/static_libraries.sh builds; those of the SDK alone come first.
+LICENCES = {"zlib": "Zlib", "libxml2": "MIT", "qhull": "Qhull", "meshoptimizer": "MIT", "jansson": "MIT", "libpng1.6": "libpng-2.0",
+            "libjpeg-turbo": "IJG AND BSD-3-Clause AND Zlib", "libwebp": "BSD-3-Clause", "minizip": "Zlib", "assimp": "BSD-3-Clause", "libsdl2": "Zlib"}
+LIBRARIES_OF_SDK = ("zlib", "libxml2", "qhull", "meshoptimizer")
+
+
+def spdx_package(name, identifier, version, licence, sum_of):
+    return {"name": name, "SPDXID": f"SPDXRef-{identifier}", "versionInfo": version, "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
+            "licenseConcluded": "NOASSERTION", "licenseDeclared": licence, "copyrightText": "NOASSERTION",
+            "checksums": [{"algorithm": "SHA256", "checksumValue": sum_of}]}
+
+
+def write_bill(packages, made, folder):
+    """The software bill of materials: SPDX 2.3. `made`: the new files of each package by its name."""
+    listed, relations = {}, []
+    for name, files in made.items():
+        tree = packages.tree_of(name)
+        sources = os.path.join(cache_of(tree)["SBFMT_STATIC_LIBRARIES"], "licences", "sources") if tree else ""
+        inside = [line.split() for line in open(sources, encoding="utf-8")] if sources and os.path.exists(sources) else []
+        for file in sorted(files):
+            identifier = re.sub(r"[^A-Za-z0-9.-]", "-", file)
+            with open(os.path.join(folder, file), "rb") as stream:
+                listed[identifier] = spdx_package(file, identifier, packages.version, "MIT", hashlib.sha256(stream.read()).hexdigest())
+            relations.append(("SPDXRef-DOCUMENT", "DESCRIBES", f"SPDXRef-{identifier}"))
+            for library, version, sum_of in inside:
+                if name == "blender" and library not in LIBRARIES_OF_SDK:
+                    continue
+                listed[library] = spdx_package(library, library, version, LICENCES[library], sum_of)
+                relations.append((f"SPDXRef-{identifier}", "CONTAINS", f"SPDXRef-{library}"))
+    bill = {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"sbfmt-{packages.version}",
+            "documentNamespace": f"urn:sbfmt:{packages.version}", "creationInfo": {"created": "2026-01-01T00:00:00Z", "creators": ["Tool: make_packages.py"]},
+            "packages": [listed[key] for key in sorted(listed)],
+            "relationships": [{"spdxElementId": one, "relationshipType": kind, "relatedSpdxElement": other} for one, kind, other in relations]}
+    with open(os.path.join(folder, f"sbfmt-{packages.version}.spdx.json"), "w", encoding="utf-8") as file:
+        json.dump(bill, file, indent=1)
+        file.write("\n")
+
+
 def write_sums(folder):
     lines = []
     for path, name in files_below(folder):
@@ -208,9 +252,10 @@ def write_sums(folder):
 
 
 def make_each(packages, names):
-    """Makes the packages and prints a row of the table for each. Returns how many could not be made."""
-    missing = 0
+    """Makes the packages and prints a row of the table for each. Returns how many could not be made, and the files of the others by package."""
+    missing, made = 0, {}
     for name in names:
+        before = set(os.listdir(packages.out))
         try:
             reason = getattr(packages, name)()
         except CommandError as error:
@@ -218,7 +263,8 @@ def make_each(packages, names):
             reason = "a command failed; see its output above"
         print(f"{name:8}  {'NOT MADE: ' + reason if reason else 'made'}", flush=True)
         missing += bool(reason)
-    return missing
+        made[name] = set(os.listdir(packages.out)) - before
+    return missing, made
 
 
 def main():
@@ -242,7 +288,8 @@ def main():
                             arguments.self_contained and os.path.abspath(arguments.self_contained),
                             arguments.node and os.path.abspath(arguments.node), arguments.windows and os.path.abspath(arguments.windows),
                             beside)
-        missing = make_each(packages, arguments.names or NAMES)
+        missing, made = make_each(packages, arguments.names or NAMES)
+        write_bill(packages, made, beside)
         write_sums(beside)
         os.chmod(beside, 0o755)
         shutil.rmtree(out, ignore_errors=True)

@@ -80,6 +80,10 @@ fetch() {
     sum=$(find "$work/fetched" -name "$1_*.orig.tar.*" ! -name '*.asc' -exec sha256sum {} + | cut -d' ' -f1)
     [ "$sum" = "$2" ] || fail "$1 of this archive is not of the version that is known to work (SHA-256 $sum): use Debian 12's archive"
     dpkg-source --no-check -x "$work/fetched/$1"_*.dsc "$work/sources/$1" >>"$log" 2>&1 || break
+    mkdir -p "$work/made$folder/licences"
+    cp "$work/sources/$1/debian/copyright" "$work/made$folder/licences/$1.txt"
+    version=$(basename "$work/fetched/$1"_*.dsc .dsc)
+    echo "$1 ${version#*_} $2" >>"$work/made$folder/licences/sources"
     return 0
   done
   tail -n 5 "$log" >&2
@@ -120,8 +124,6 @@ build() {
   }
   rm -f "$work/made$folder"/lib/*.so* "$work/made$folder"/lib/*.dll.a # some packages build both kinds, and the linker prefers shared ones
   [ ! -f "$work/made$folder/lib/libzlibstatic.a" ] || mv "$work/made$folder/lib/libzlibstatic.a" "$work/made$folder/lib/libz.a" # on Windows
-  mkdir -p "$work/made$folder/licences"
-  cp "$work/sources/$package/debian/copyright" "$work/made$folder/licences/$package.txt"
 }
 
 echo "$libraries" | while read -r package sum options; do

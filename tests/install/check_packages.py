@@ -10,6 +10,7 @@ made, says so and is skipped. Exit status: 0 all that ran is good, 1 something i
 import argparse
 import glob
 import hashlib
+import json
 import os
 import subprocess
 import sys
@@ -42,6 +43,21 @@ def check_sums(folder):
             if hashlib.sha256(file.read()).hexdigest() != reported:
                 sys.exit(f"{name} has another sum than SHA256SUMS tells")
     return listed
+
+
+def check_bill(folder, listed):
+    """The bill of materials describes every package with its sum, and each of its references is of a package in it."""
+    with open(first(folder, "sbfmt-*.spdx.json"), encoding="utf-8") as file:
+        bill = json.load(file)
+    sums = {package["name"]: package["checksums"][0]["checksumValue"] for package in bill["packages"]}
+    for name, reported in listed.items():
+        if not name.endswith(".spdx.json") and sums.get(name) != reported:
+            sys.exit(f"the bill of materials has {name} with the sum {sums.get(name)}, not {reported}")
+    known = {package["SPDXID"] for package in bill["packages"]} | {"SPDXRef-DOCUMENT"}
+    for relation in bill["relationships"]:
+        for side in ("spdxElementId", "relatedSpdxElement"):
+            if relation[side] not in known:
+                sys.exit(f"the bill of materials tells of {relation[side]}, which it does not list")
 
 
 def first(folder, pattern):
@@ -100,7 +116,7 @@ def main():
         setattr(arguments, name, value and os.path.abspath(value))
     os.makedirs(arguments.scratch, exist_ok=True)
     folder = arguments.packages or make(arguments)
-    check_sums(folder)
+    check_bill(folder, check_sums(folder))
     good = skipped = 0
     failed = []
     environment = {**os.environ, "SBFMT_BUILD_DIR": arguments.build, "PYTHONDONTWRITEBYTECODE": "1"}
