@@ -53,7 +53,7 @@ work=$folder.unfinished
 rm -rf "$work" "$folder"
 mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/sources" "$work/made"
 log=$work/log
-[ -z "$toolchain" ] || export PKG_CONFIG_LIBDIR="$work/made$folder/lib/pkgconfig" # not this system's
+export PKG_CONFIG_LIBDIR="$work/made$folder/lib/pkgconfig" # not the libraries of this system
 
 # ---- Sources ----------------------------------------------------------------------------------------------
 

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """./run: its calls and its handling of missing packages, on a machine of simulated commands."""
 import contextlib
+import hashlib
 import io
+import json
 import os
 import shutil
 import stat
@@ -186,14 +188,35 @@ class Stages(unittest.TestCase):
 class Table(unittest.TestCase):
     def test_a_package_that_is_not_made_is_counted_and_reported(self):
         class Some:
-            npm, tarball = staticmethod(lambda: "there is no npm"), staticmethod(lambda: None)
+            out = self.enterContext(tempfile.TemporaryDirectory())
+            npm, tarball = staticmethod(lambda: "there is no npm"), staticmethod(lambda: open(os.path.join(Some.out, "it"), "wb").close())
             debian = staticmethod(lambda: make_packages.run("sh", "-c", "echo no room >&2; exit 3"))
         printed, complained = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(complained):
-            self.assertEqual(make_packages.make_each(Some, ["npm", "debian", "tarball"]), 2)
+            self.assertEqual(make_packages.make_each(Some, ["npm", "debian", "tarball"]), (2, {"npm": set(), "debian": set(), "tarball": {"it"}}))
         self.assertEqual(printed.getvalue(), "npm       NOT MADE: there is no npm\n"
                                           "debian    NOT MADE: a command failed; see its output above\ntarball   made\n")
         self.assertIn("no room", complained.getvalue())
+
+    def test_the_bill_of_materials_names_what_is_linked_into_each_package(self):
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        os.makedirs(os.path.join(folder, "libraries", "licences"))
+        for path, text in (("libraries/licences/sources", "zlib 1.2 aa\nassimp 5.2 bb\n"), ("CMakeCache.txt", f"SBFMT_STATIC_LIBRARIES:PATH={folder}/libraries\n"),
+                           ("addon.zip", "addon"), ("it.tar.gz", "program"), ("plain.deb", "")):
+            with open(os.path.join(folder, path), "w", encoding="utf-8") as file:
+                file.write(text)
+
+        class Some:
+            version = "0.1"
+            tree_of = staticmethod(lambda name: None if name == "debian" else folder)
+        make_packages.write_bill(Some, {"blender": {"addon.zip"}, "linux": {"it.tar.gz"}, "debian": {"plain.deb"}}, folder)
+        with open(os.path.join(folder, "sbfmt-0.1.spdx.json"), encoding="utf-8") as file:
+            bill = json.load(file)
+        inside = {(one["spdxElementId"], one["relatedSpdxElement"]) for one in bill["relationships"] if one["relationshipType"] == "CONTAINS"}
+        self.assertEqual(inside, {("SPDXRef-addon.zip", "SPDXRef-zlib"), ("SPDXRef-it.tar.gz", "SPDXRef-zlib"), ("SPDXRef-it.tar.gz", "SPDXRef-assimp")})
+        self.assertEqual({one["name"] for one in bill["packages"]}, {"addon.zip", "it.tar.gz", "plain.deb", "zlib", "assimp"})
+        sums = {one["name"]: one["checksums"][0]["checksumValue"] for one in bill["packages"]}
+        self.assertEqual((sums["zlib"], sums["addon.zip"]), ("aa", hashlib.sha256(b"addon").hexdigest()))
 
 
 if __name__ == "__main__":
