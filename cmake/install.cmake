@@ -30,6 +30,12 @@ endforeach()
 if(TARGET sbfmt)
   add_dependencies(products sbfmt)
   install(TARGETS sbfmt COMPONENT tools)
+  if(CMAKE_SYSTEM_NAME STREQUAL Linux) # desktops open files with the program, and show pictures of them
+    install(FILES tools/desktop/sbfmt.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT tools)
+    install(FILES tools/desktop/sbfmt.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT tools)
+    install(FILES tools/desktop/sbfmt.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers COMPONENT tools)
+    install(FILES tools/desktop/application-x-sbf.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/mimetypes COMPONENT tools)
+  endif()
 endif()
 if(NOT SBFMT_RUNTIME_ONLY AND BUILD_SHARED_LIBS)
   # A folder to put on PYTHONPATH; it finds the library by itself where that is beside or in the system's places.

@@ -101,12 +101,36 @@ class Package:
                f"libraries are not .{ending} in {self.libraries}")
         if self.has_program:
             expect("bin/sbfmt" in files, "bin/sbfmt is not installed")
+            self.check_desktop(files)
         for name in files:
             if name.endswith((".cmake", ".pc", ".h")):
                 with open(os.path.join(self.prefix, name), encoding="utf-8") as file:
                     text = file.read()
                 for folder in (self.source, self.build, self.scratch):
                     expect(not folder or folder not in text, f"{name} speaks of {folder}: it would not survive a move")
+
+    def check_desktop(self, files):
+        """Desktops find the program for the types of its files, and the pictures that its thumbnailer draws."""
+        texts = {}
+        for name in ("applications/sbfmt.desktop", "mime/packages/sbfmt.xml", "thumbnailers/sbfmt.thumbnailer",
+                     "icons/hicolor/scalable/mimetypes/application-x-sbf.svg"):
+            expect(f"share/{name}" in files, f"share/{name} is not installed")
+            with open(os.path.join(self.prefix, "share", name), encoding="utf-8") as file:
+                texts[name] = file.read()
+        types = set(re.findall(r'mime-type type="(.*)"', texts["mime/packages/sbfmt.xml"]))
+        for name in ("applications/sbfmt.desktop", "thumbnailers/sbfmt.thumbnailer"):
+            named = set(re.search(r"^MimeType=(.*);$", texts[name], re.MULTILINE).group(1).split(";"))
+            expect(named == types, f"{name} is for {sorted(named)}, the types are {sorted(types)}")
+        command = re.search(r"^Exec=(.*)", texts["thumbnailers/sbfmt.thumbnailer"], re.MULTILINE).group(1)
+        picture = os.path.join(self.scratch, "thumbnail.png")
+        values = {"%i": os.path.join(self.source, "examples", "bones", "figure.sbf"), "%o": picture, "%sx%s": "128x128"}
+        words = [values.get(word, word) for word in command.split()]
+        status, printed = run(os.path.join(self.prefix, "bin", words[0]), *words[1:], must=False)
+        expect(status == 0 or "NO_OPENGL" in printed, f"the thumbnailer's command fails: {printed}")
+        if status == 0:
+            with open(picture, "rb") as file:
+                head = file.read(24)
+            expect(head[12:] == b"IHDR" + bytes([0, 0, 0, 128, 0, 0, 0, 128]), "the thumbnail has another size")
 
     def check_exports(self):
         """Shared libraries show the public calls, and their insides under a version that promises nothing."""

@@ -103,6 +103,14 @@ def picture_faults(program, native, folder):
     return []
 
 
+def window_faults(program, folder):
+    """`sbfmt view` opens a window with the package's SDL and draws into it."""
+    shot = os.path.join(folder, "wîndow.png")
+    seen = run("xvfb-run", "-a", *program, "view", os.path.join(EXAMPLES, "bones", "figure.sbf"), "--frames", "3", "--size", "320x240", "--shot", shot,
+               must=False)
+    return [] if seen.returncode == 0 and len(set(grey_pixels(shot))) > 20 else [f"no window: {seen.stdout}{seen.stderr}"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--source", required=True)
@@ -126,7 +134,7 @@ def main():
         os.mkdir(calls)
         faults += program_calls.compare([program], [os.path.join(native, "tools", "sbfmt")], calls, CALLS, "Windows")
         faults += sdk_faults(source, package, native, folder)
-        faults += picture_faults([program], native, folder)
+        faults += picture_faults([program], native, folder) + window_faults([program], folder)
         run("wineserver", "-w", must=False)
     if faults:
         sys.exit("\n\n".join(faults))
