@@ -8,6 +8,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.realpath(os.path.join(HERE, os.pardir, os.pardir))
@@ -219,6 +220,37 @@ class Binary(ModuleTest):
     def test_the_loaders_error_on_an_older_system(self):
         printed = "/lib/x86_64-linux-gnu/libc.so.6: version `GLIBC_2.35' not found (required by /tmp/x.so)"
         self.assertIn("needs glibc 2.35 or newer", library.fault_in_words(printed))
+
+    def test_an_add_on_has_libraries_of_several_systems_and_uses_its_own(self):
+        own = os.environ["SBFMT_LIBRARY"]
+        with open(own, "rb") as file:
+            arm = bytearray(file.read())
+        arm[18:20] = (183).to_bytes(2, "little")  # the machine of an ELF file
+        head = bytearray(256)
+        head[:2], head[60], head[128:134] = b"MZ", 128, b"PE\0\0\x64\x86"
+        others = []
+        for folder, name, content in (("arm", os.path.basename(own), arm), ("windows", "sbfmt-interchange.dll", head)):
+            os.mkdir(self.path(folder))
+            others.append(os.path.join(self.path(folder), name))
+            with open(others[-1], "wb") as file:
+                file.write(content)
+        pack, addon = os.path.join(ROOT, "exporters", "blender", "pack.py"), self.path("addon.zip")
+        subprocess.run([sys.executable, "-B", pack, addon, own, *others], check=True)
+        with zipfile.ZipFile(addon) as archive:
+            manifest = archive.read("soft_body_format/blender_manifest.toml").decode()
+            archive.extractall(self.path("installed"))
+        for platform in ("linux-x64", "linux-arm64", "windows-x64"):
+            self.assertIn(f'"{platform}"', manifest)
+            self.assertTrue(os.listdir(self.path(f"installed/soft_body_format/sbfmt/lib/{platform}")))
+        environment = {**os.environ, "PYTHONPATH": self.path("installed/soft_body_format")}
+        del environment["SBFMT_LIBRARY"]
+        found = subprocess.run([sys.executable, "-B", "-c", "import sbfmt; print(sbfmt.library_path())"], env=environment, capture_output=True, text=True,
+                               check=True).stdout.strip()
+        self.assertEqual(os.path.relpath(found, self.path("installed/soft_body_format")),
+                         os.path.join("sbfmt", "lib", library.PLATFORM, os.path.basename(own)))
+        again = subprocess.run([sys.executable, "-B", pack, self.path("two.zip"), own, own], capture_output=True, text=True, check=False)
+        self.assertEqual((again.returncode, os.path.exists(self.path("two.zip"))), (1, False))
+        self.assertIn("the same name and platform", again.stderr)
 
     def test_a_folder_may_be_named(self):
         os.mkdir(self.path("lib"))
