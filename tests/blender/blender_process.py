@@ -1,6 +1,7 @@
 """Runs scripts of this folder in Blender with the add-on installed from its zip, and without the user's settings."""
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -9,6 +10,8 @@ import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.realpath(os.path.join(HERE, os.pardir, os.pardir))
+# Of this machine, in the folder of scripts.
+LIBRARIES = os.path.join("scripts", "addons", "soft_body_format", "sbfmt", "lib", {"x86_64": "linux-x64", "aarch64": "linux-arm64"}[platform.machine()])
 
 
 def skip(why):
@@ -51,7 +54,7 @@ class Blender:
         with zipfile.ZipFile(archive) as opened:
             opened.extractall(os.path.join(self.folder, "scripts", "addons"))
         if self.packed and self.root:
-            lib = os.path.join(self.folder, "scripts", "addons", "soft_body_format", "sbfmt", "lib")
+            lib = os.path.join(self.folder, LIBRARIES)
             for one in [path for own in os.listdir(lib) if own.endswith(".so")
                         for path in needed_libraries(os.path.join(lib, own))]:
                 shutil.copy(one, lib)
@@ -71,9 +74,8 @@ class Blender:
 
     def environment(self):
         """The library's companions are found beside it; no other Python is on the path."""
-        lib = os.path.join(self.inside, "scripts", "addons", "soft_body_format", "sbfmt", "lib")
         return {**os.environ, "BLENDER_USER_SCRIPTS": f"{self.inside}/scripts", "PYTHONDONTWRITEBYTECODE": "1",
-                "BLENDER_USER_CONFIG": f"{self.inside}/config", "LD_LIBRARY_PATH": lib, "HOME": self.inside,
+                "BLENDER_USER_CONFIG": f"{self.inside}/config", "LD_LIBRARY_PATH": os.path.join(self.inside, LIBRARIES), "HOME": self.inside,
                 "SBFMT_KEPT": f"{self.inside}/kept", "PATH": "/usr/bin:/bin"}
 
     @property
