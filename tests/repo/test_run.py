@@ -198,7 +198,7 @@ class Table(unittest.TestCase):
                                           "debian    NOT MADE: a command failed; see its output above\ntarball   made\n")
         self.assertIn("no room", complained.getvalue())
 
-    def test_the_bill_of_materials_names_what_is_linked_into_each_package(self):
+    def test_the_bill_of_materials_names_libraries_inside_each_package(self):
         folder = self.enterContext(tempfile.TemporaryDirectory())
         os.makedirs(os.path.join(folder, "libraries", "licences"))
         for path, text in (("libraries/licences/sources", "zlib 1.2 aa\nassimp 5.2 bb\n"), ("CMakeCache.txt", f"SBFMT_STATIC_LIBRARIES:PATH={folder}/libraries\n"),

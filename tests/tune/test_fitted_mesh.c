@@ -2,22 +2,17 @@
 #include "tune/fitted_mesh.h"
 
 #include "harness.h"
-#include "sbfmt/convert.h"
+#include "pudding_meshes.h"
 
 static tune_meshes meshes;
 static tune_comparison comparison;
 
 static void setup(void) {
   const tune_grid grid = {.sizes = {60}, .size_count = 1, .reference = 250, .calibrated_alone = true};
-  sbf_asset *asset;
   sbf_diagnostic error;
-  sbf_status status = sbf_convert(harness_source("examples/pudding/pudding.glb"), NULL, &asset, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
-  status = tune_meshes_make(asset, &grid, &meshes, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
-  sbf_asset_free(asset);
+  make_pudding_meshes(&meshes, &grid);
   ck_assert(tune_meshes_trust_own(&meshes));
-  status = tune_comparison_create(
+  sbf_status status = tune_comparison_create(
       &comparison, meshes.reference.asset, &(tune_measure){.by = TUNE_BY_P99, .once = true}, &error);
   ck_assert_msg(status == SBF_OK, "%s", error.message);
 }

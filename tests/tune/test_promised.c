@@ -2,7 +2,7 @@
  * one. */
 #include "chart/rounds.h"
 #include "harness.h"
-#include "sbfmt/convert.h"
+#include "pudding_meshes.h"
 #include "tune/trials.h"
 
 /* Turning by 10 rad/s to and fro and hopping by 3 % of the height, to beats that the tuning does not use. */
@@ -42,17 +42,12 @@ static void setup(void) {
   const tune_grid grid = {
       .sizes = {60, 250}, .size_count = 2, .reference = 1000, .coarse = true, .calibrated_alone = true};
   const tune_effort effort = {.own_scheme_alone = true, .rounds = 1};
-  sbf_asset *asset;
   sbf_diagnostic error;
-  sbf_status status = sbf_convert(harness_source("examples/pudding/pudding.glb"), NULL, &asset, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
-  status = tune_meshes_make(asset, &grid, &meshes, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
-  sbf_asset_free(asset);
+  make_pudding_meshes(&meshes, &grid);
   ck_assert_int_eq(tune_trials_plan(&meshes, &effort, &trials, &error), SBF_OK);
   make_yard(&comparison, NULL);
   make_yard(&other, &tune_harsher_drive);
-  status = tune_trials_run(&meshes, &comparison, &other, &effort, &trials, &error);
+  sbf_status status = tune_trials_run(&meshes, &comparison, &other, &effort, &trials, &error);
   ck_assert_msg(status == SBF_OK, "%s", error.message);
 }
 static void teardown(void) {

@@ -1,6 +1,6 @@
 /* Motions in which the reference is too coarse are not measured. */
 #include "harness.h"
-#include "sbfmt/convert.h"
+#include "pudding_meshes.h"
 #include "tune/comparison.h"
 #include "tune/tuned_meshes.h"
 
@@ -9,14 +9,9 @@ static tune_comparison comparison;
 
 static void setup(void) {
   const tune_grid grid = {.sizes = {60}, .size_count = 1, .reference = 120, .calibrated_alone = true};
-  sbf_asset *asset;
   sbf_diagnostic error;
-  sbf_status status = sbf_convert(harness_source("examples/pudding/pudding.glb"), NULL, &asset, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
-  status = tune_meshes_make(asset, &grid, &meshes, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
-  sbf_asset_free(asset);
-  status = tune_comparison_create(
+  make_pudding_meshes(&meshes, &grid);
+  sbf_status status = tune_comparison_create(
       &comparison, meshes.reference.asset, &(tune_measure){.by = TUNE_BY_P99, .once = true}, &error);
   ck_assert_msg(status == SBF_OK, "%s", error.message);
 }

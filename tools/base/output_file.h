@@ -24,4 +24,11 @@ void output_file_tie(intptr_t process);
 sbf_status output_file_commit(output_file *output, sbf_diagnostic *diagnostic); /* ends it in any case */
 void output_file_abandon(output_file *output); /* does nothing if ended or {0} */
 
+/* ---- output_file.c, for the files of each system ---- */
+
+void output_file_release(output_file *output);
+/* Each releases it, and returns its status: for an errno, and if memory ran out. */
+sbf_status output_file_refuse(output_file *output, int why, sbf_diagnostic *diagnostic);
+sbf_status output_file_no_memory(output_file *output, sbf_diagnostic *diagnostic);
+
 #endif

@@ -57,26 +57,6 @@ void output_file_tie(intptr_t process) {
   pending_process = (pid_t)process;
 }
 
-static void release(output_file *output) {
-  free(output->final_path);
-  free(output->written_path);
-  *output = (output_file){0};
-}
-
-static sbf_status cannot_write(output_file *output, int why, sbf_diagnostic *diagnostic) {
-  sbf_status status = fault_set_file(diagnostic, SBF_CODE_IO_CANNOT_WRITE, output->given,
-      "cannot write: %s; check the folder, its permissions and the free space", strerror(why));
-  release(output);
-  return status;
-}
-
-static sbf_status out_of_memory(output_file *output, sbf_diagnostic *diagnostic) {
-  sbf_status status =
-      fault_set_file(diagnostic, SBF_CODE_OUT_OF_MEMORY, output->given, "no memory for a file's name");
-  release(output);
-  return status;
-}
-
 /* `there`: an existing file, or NULL. Returns 0, or the errno. */
 static int make_temporary(const char *path, const struct stat *there) {
   int why = 0;
@@ -97,15 +77,15 @@ sbf_status output_file_begin(output_file *output, const char *path, sbf_diagnost
   bool exists = stat(path, &there) == 0;
   /* Renaming would replace a dangling link by the file. */
   if (!exists && lstat(path, &link) == 0 && S_ISLNK(link.st_mode))
-    return cannot_write(output, ENOENT, diagnostic);
-  if (exists && S_ISDIR(there.st_mode)) return cannot_write(output, EISDIR, diagnostic);
-  if (exists && access(path, W_OK) != 0) return cannot_write(output, errno, diagnostic);
+    return output_file_refuse(output, ENOENT, diagnostic);
+  if (exists && S_ISDIR(there.st_mode)) return output_file_refuse(output, EISDIR, diagnostic);
+  if (exists && access(path, W_OK) != 0) return output_file_refuse(output, errno, diagnostic);
   output->direct = exists && !S_ISREG(there.st_mode);
   output->final_path = exists && !output->direct ? realpath(path, NULL) : strdup(path);
-  if (!output->final_path) return out_of_memory(output, diagnostic);
+  if (!output->final_path) return output_file_no_memory(output, diagnostic);
   size_t size = strlen(output->final_path) + 32;
   output->written_path = malloc(size);
-  if (!output->written_path) return out_of_memory(output, diagnostic);
+  if (!output->written_path) return output_file_no_memory(output, diagnostic);
   if (output->direct) {
     memcpy(output->written_path, output->final_path, strlen(output->final_path) + 1);
     watch_signals(NULL);
@@ -113,7 +93,7 @@ sbf_status output_file_begin(output_file *output, const char *path, sbf_diagnost
   }
   snprintf(output->written_path, size, "%s.%ld.part", output->final_path, (long)getpid());
   int why = make_temporary(output->written_path, exists ? &there : NULL);
-  if (why) return cannot_write(output, why, diagnostic);
+  if (why) return output_file_refuse(output, why, diagnostic);
   watch_signals(output->written_path);
   return SBF_OK;
 }
@@ -125,8 +105,8 @@ sbf_status output_file_commit(output_file *output, sbf_diagnostic *diagnostic) {
     unlink(output->written_path);
   }
   unwatch_signals();
-  if (why) return cannot_write(output, why, diagnostic);
-  release(output);
+  if (why) return output_file_refuse(output, why, diagnostic);
+  output_file_release(output);
   return SBF_OK;
 }
 
@@ -134,5 +114,5 @@ void output_file_abandon(output_file *output) {
   if (!output->written_path) return;
   if (!output->direct) unlink(output->written_path);
   unwatch_signals();
-  release(output);
+  output_file_release(output);
 }

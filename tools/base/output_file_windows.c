@@ -52,19 +52,6 @@ void output_file_tie(intptr_t process) {
   set_pending(pending_path, (HANDLE)process);
 }
 
-static void release(output_file *output) {
-  free(output->final_path);
-  free(output->written_path);
-  *output = (output_file){.given = NULL};
-}
-
-static sbf_status cannot_write(output_file *output, int why, sbf_diagnostic *diagnostic) {
-  sbf_status status = fault_set_file(diagnostic, SBF_CODE_IO_CANNOT_WRITE, output->given,
-      "cannot write: %s; check the folder, its permissions and the free space", strerror(why));
-  release(output);
-  return status;
-}
-
 static int make_temporary(const char *path) {
   HANDLE file = CreateFileA(path, GENERIC_WRITE, 0, NULL, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, NULL);
   if (file != INVALID_HANDLE_VALUE) {
@@ -82,18 +69,15 @@ sbf_status output_file_begin(output_file *output, const char *path, sbf_diagnost
         diagnostic, SBF_CODE_BAD_CALL, path, "another file is being written: one at a time");
   DWORD facts = GetFileAttributesA(path);
   bool exists = facts != INVALID_FILE_ATTRIBUTES;
-  if (exists && facts & FILE_ATTRIBUTE_DIRECTORY) return cannot_write(output, EISDIR, diagnostic);
-  if (exists && facts & FILE_ATTRIBUTE_READONLY) return cannot_write(output, EACCES, diagnostic);
+  if (exists && facts & FILE_ATTRIBUTE_DIRECTORY) return output_file_refuse(output, EISDIR, diagnostic);
+  if (exists && facts & FILE_ATTRIBUTE_READONLY) return output_file_refuse(output, EACCES, diagnostic);
   size_t size = strlen(path) + 32;
   output->final_path = strdup(path);
   output->written_path = malloc(size);
-  if (!output->final_path || !output->written_path) {
-    release(output);
-    return fault_set_file(diagnostic, SBF_CODE_OUT_OF_MEMORY, path, "no memory for a file's name");
-  }
+  if (!output->final_path || !output->written_path) { return output_file_no_memory(output, diagnostic); }
   snprintf(output->written_path, size, "%s.%lu.part", path, (unsigned long)GetCurrentProcessId());
   int why = make_temporary(output->written_path);
-  if (why) return cannot_write(output, why, diagnostic);
+  if (why) return output_file_refuse(output, why, diagnostic);
   watch(output->written_path);
   return SBF_OK;
 }
@@ -105,8 +89,8 @@ sbf_status output_file_commit(output_file *output, sbf_diagnostic *diagnostic) {
     DeleteFileA(output->written_path);
   }
   unwatch();
-  if (why) return cannot_write(output, why, diagnostic);
-  release(output);
+  if (why) return output_file_refuse(output, why, diagnostic);
+  output_file_release(output);
   return SBF_OK;
 }
 
@@ -114,5 +98,5 @@ void output_file_abandon(output_file *output) {
   if (!output->written_path) return;
   DeleteFileA(output->written_path);
   unwatch();
-  release(output);
+  output_file_release(output);
 }

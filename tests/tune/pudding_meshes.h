@@ -1,0 +1,10 @@
+/* Meshes of the example pudding. */
+#ifndef TEST_PUDDING_MESHES_H
+#define TEST_PUDDING_MESHES_H
+
+#include "tune/tuned_meshes.h"
+
+/* Converts it and makes its meshes; free them with tune_meshes_free. Ends the test if that fails. */
+void make_pudding_meshes(tune_meshes *meshes, const tune_grid *grid);
+
+#endif
