@@ -51,17 +51,17 @@ def add(archive, path, name, change=None):
 def main(out, libraries, licences):
     module = os.path.join(FOLDER, os.pardir, "python", "sbfmt")
     temporary = f"{out}.{os.getpid()}"
-    inside_names = [(platform_of(path) or sys.exit(f"pack.py: {path} is not a library for a platform that Blender supports"), os.path.basename(path))
-              for path in libraries]
-    if len(set(inside_names)) < len(libraries):
+    kinds = [(platform_of(path) or sys.exit(f"pack.py: {path} is not a library for a platform that Blender supports"), os.path.basename(path))
+             for path in libraries]
+    if len(set(kinds)) < len(libraries):
         sys.exit("pack.py: two libraries have the same name and platform: name one of them")
-    platforms = {platform for platform, _ in inside_names}
+    platforms = {platform for platform, _ in kinds}
     with zipfile.ZipFile(temporary, "w") as archive:
         for folder, inside in ((os.path.join(FOLDER, ADDON), ADDON), (module, f"{ADDON}/sbfmt")):
             for path in python_files(folder):
                 change = (lambda content: with_platforms(content, platforms)) if path.endswith("blender_manifest.toml") else None
                 add(archive, path, f"{inside}/{os.path.relpath(path, folder).replace(os.sep, '/')}", change)
-        for path, (platform, name) in zip(libraries, inside_names):
+        for path, (platform, name) in zip(libraries, kinds):
             add(archive, path, f"{ADDON}/sbfmt/lib/{platform}/{name}")
         for name in sorted(os.listdir(licences)) if licences else ():
             add(archive, os.path.join(licences, name), f"{ADDON}/sbfmt/lib/licences/{name}")
