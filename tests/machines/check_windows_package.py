@@ -57,10 +57,19 @@ def grey_pixels(picture):
 
 
 def wrapper(folder, program):
-    """A program that runs another one by wine, for tests that start it by one name."""
+    """A program that runs another one by wine, for tests that start it by one name. What it prints goes through files: processes of wine that a call
+    starts, such as that of the desktop, would hold its pipes open."""
     path = os.path.join(folder, "sbfmt")
     with open(path, "w", encoding="utf-8") as file:
-        file.write(f'#!/bin/sh\nexec wine "{program}" "$@"\n')
+        file.write(f'''#!/bin/sh
+printed=$(mktemp -d)
+wine "{program}" "$@" >"$printed/out" 2>"$printed/err" </dev/null
+status=$?
+cat "$printed/out"
+cat "$printed/err" >&2
+rm -r "$printed"
+exit $status
+''')
     os.chmod(path, 0o755)
     return path
 
@@ -72,6 +81,12 @@ def test_faults(source, native, program):
         done = run("xvfb-run", "-a", sys.executable, "-B", os.path.join(source, "tests", "support", "cases.py"), os.path.join(source, "tests", "e2e", f"test_{name}.py"), must=False)
         if done.returncode:
             yield f"e2e/test_{name}\n{(done.stdout + done.stderr)[-3000:]}"
+
+
+def start_wine():
+    """Wine's server and services, which stay until the end: calls then start faster."""
+    for command in (["wineserver", "-p"], ["wine", "wineboot", "--init"]):
+        subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
 
 
 def sdk_faults(source, package, native, folder):
@@ -140,8 +155,8 @@ def main():
         package = os.path.join(folder, os.path.basename(arguments.zip)[:-len(".zip")])
         # A prefix of its own: nothing of the user's is touched.
         os.environ.update(WINEPREFIX=os.path.join(folder, "wine"), WINEDEBUG="-all")
-        run("wine", "wineboot", "--init")
-        subprocess.Popen(["wineserver", "-p"])  # stays between calls, which then start faster
+        os.mkdir(os.environ["WINEPREFIX"])
+        start_wine()
         program = wrapper(folder, os.path.join(package, "bin", "sbfmt.exe"))
         calls = os.path.join(folder, "calls")
         os.mkdir(calls)
