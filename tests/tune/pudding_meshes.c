@@ -12,3 +12,10 @@ void make_pudding_meshes(tune_meshes *meshes, const tune_grid *grid) {
   ck_assert_msg(status == SBF_OK, "%s", error.message);
   sbf_asset_free(asset);
 }
+
+void compare_to_reference(const tune_meshes *meshes, tune_comparison *comparison) {
+  sbf_diagnostic error;
+  sbf_status status = tune_comparison_create(
+      comparison, meshes->reference.asset, &(tune_measure){.by = TUNE_BY_P99, .once = true}, &error);
+  ck_assert_msg(status == SBF_OK, "%s", error.message);
+}

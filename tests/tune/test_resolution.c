@@ -9,11 +9,8 @@ static tune_comparison comparison;
 
 static void setup(void) {
   const tune_grid grid = {.sizes = {60}, .size_count = 1, .reference = 120, .calibrated_alone = true};
-  sbf_diagnostic error;
   make_pudding_meshes(&meshes, &grid);
-  sbf_status status = tune_comparison_create(
-      &comparison, meshes.reference.asset, &(tune_measure){.by = TUNE_BY_P99, .once = true}, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
+  compare_to_reference(&meshes, &comparison);
 }
 static void teardown(void) {
   tune_comparison_free(&comparison);
